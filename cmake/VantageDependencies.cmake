@@ -1,0 +1,25 @@
+# Everything comes from Debian's packages; apps/setup.sh installs them.
+
+find_package(Eigen3 3.4 REQUIRED NO_MODULE)
+find_package(TBB REQUIRED)
+find_package(fmt REQUIRED)
+find_package(PNG REQUIRED)
+find_package(assimp REQUIRED)
+find_package(nlohmann_json REQUIRED)
+
+# Debian 12 has Embree 3.13, Debian 13 has 4.3: raycore/src/embree.hpp hides the difference.
+find_package(embree REQUIRED)
+if(NOT EMBREE_VERSION_MAJOR MATCHES "^[34]$")
+  message(FATAL_ERROR "Embree ${EMBREE_VERSION} found; vantage is written for Embree 3 and 4")
+endif()
+add_library(vantage_embree INTERFACE)
+target_link_libraries(vantage_embree INTERFACE embree)
+target_compile_definitions(vantage_embree INTERFACE VANTAGE_EMBREE_MAJOR=${EMBREE_VERSION_MAJOR})
+
+# OpenVDB ships a find module instead of a package file.
+find_path(VANTAGE_OPENVDB_MODULE FindOpenVDB.cmake
+          PATHS /usr/lib/${CMAKE_LIBRARY_ARCHITECTURE}/cmake/OpenVDB REQUIRED)
+list(APPEND CMAKE_MODULE_PATH "${VANTAGE_OPENVDB_MODULE}")
+find_package(OpenVDB REQUIRED COMPONENTS openvdb)
+
+find_package(OpenCV REQUIRED COMPONENTS core imgcodecs)

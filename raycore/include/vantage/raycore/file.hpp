@@ -1,0 +1,30 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "vantage/raycore/api.hpp"
+
+namespace vantage {
+
+/// The whole file.
+/// @throws Error bad_input if it is missing, is no regular file, cannot be read, or is larger than
+/// `max_bytes`.
+VANTAGE_API std::vector<std::uint8_t> read_file(const std::filesystem::path& path,
+                                                std::size_t max_bytes = std::size_t(4) << 30);
+
+/// Writes `bytes` beside `path` and renames: the file is there whole, or as it was before.
+/// @throws Error bad_input if the folder is missing or cannot be written; out_of_resources if the
+/// disk is full.
+VANTAGE_API void write_file(const std::filesystem::path& path, std::string_view bytes);
+
+/// The same for a writer that wants a path: `write` gets the temporary file's.
+VANTAGE_API void write_file_with(const std::filesystem::path& path,
+                                 const std::function<void(const std::filesystem::path&)>& write);
+
+}  // namespace vantage

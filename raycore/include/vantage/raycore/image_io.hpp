@@ -1,0 +1,22 @@
+#pragma once
+
+#include <filesystem>
+
+#include "vantage/raycore/api.hpp"
+#include "vantage/raycore/image.hpp"
+
+namespace vantage {
+
+/// An 8-bit RGB PNG. The same image gives the same bytes.
+/// @throws Error as `write_file` does; bad_input for an image without pixels.
+VANTAGE_API void write_png(const std::filesystem::path& path, const ColorImage& image);
+
+/// A 16-bit grey PNG.
+VANTAGE_API void write_png(const std::filesystem::path& path, const CountImage& image);
+
+/// Reads a 16-bit grey PNG, as depth is stored.
+/// @throws Error bad_input if the file is missing, no PNG, truncated, corrupt, of another bit depth
+/// or colour type (8-bit depth is never scaled up), or above 16384 pixels along a side.
+VANTAGE_API CountImage read_png_counts(const std::filesystem::path& path);
+
+}  // namespace vantage

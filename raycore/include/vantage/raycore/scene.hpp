@@ -1,0 +1,111 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "vantage/raycore/api.hpp"
+#include "vantage/raycore/depth_image.hpp"
+#include "vantage/raycore/points.hpp"
+
+namespace vantage {
+
+/// Number of an object in its scene: 0, 1, 2 … in the order of adding.
+using ObjectId = std::uint32_t;
+inline constexpr ObjectId kNoObject = 0xFFFFFFFFu;
+
+/// A ray from `origin`; hits count where t_near <= t <= t_far, in units of `direction`'s length.
+struct Ray {
+  Eigen::Vector3f origin;
+  Eigen::Vector3f direction;
+  float t_near = 0;
+  float t_far = std::numeric_limits<float>::infinity();
+};
+
+/// Where a ray first meets a surface: at `origin + t * direction`.
+struct Hit {
+  float t = std::numeric_limits<float>::infinity();
+  ObjectId object = kNoObject;
+  std::uint32_t triangle = 0;  ///< index into the object's mesh
+  float u = 0;                 ///< barycentric weight of the triangle's corner 1
+  float v = 0;                 ///< barycentric weight of the triangle's corner 2
+  Eigen::Vector3f normal = Eigen::Vector3f::Zero();  ///< world frame, unit length, outwards
+};
+
+/// N hits, one array per field; fields as in Hit. A miss has t = +infinity, object = kNoObject.
+struct Hits {
+  std::vector<float> t, u, v;
+  std::vector<ObjectId> object;
+  std::vector<std::uint32_t> triangle;
+  Points normal;
+
+  VANTAGE_API void resize(std::size_t size);
+  std::size_t size() const noexcept { return t.size(); }
+  bool hit(std::size_t i) const { return object[i] != kNoObject; }
+};
+
+/// What the rays of a batch have in common. It changes the speed, never the result's meaning.
+enum class RayOrder {
+  incoherent,  ///< many directions or origins, e.g. from voxels to a camera
+  coherent,    ///< neighbouring pixels of one camera
+};
+
+namespace detail {
+struct SceneImpl;
+}
+
+/// An immutable set of triangles under a BVH. Made by SceneBuilder, shared by
+/// `shared_ptr<const Scene>`; every method may be called from many threads at once.
+///
+/// Batches are split over the `tbb::task_arena` in which they are called. The same batch gives the
+/// same bits at any number of threads. Intersection is watertight: no ray slips through a shared
+/// edge; which of two touching triangles a ray through their edge reports is left open.
+///
+/// Every ray is checked first. A coordinate that is not finite or beyond 1e9 m, a zero direction
+/// and a segment of zero length are refused: Error bad_input with the index of the first such ray.
+class VANTAGE_API Scene {
+ public:
+  ~Scene();
+  Scene(const Scene&) = delete;
+  Scene& operator=(const Scene&) = delete;
+
+  std::size_t object_count() const noexcept;
+  std::size_t triangle_count() const noexcept;  ///< an instance counts its mesh's triangles
+
+  /// Whether anything touches the closed segment between two points.
+  bool occluded(const Eigen::Vector3f& from, const Eigen::Vector3f& to) const;
+
+  /// The same for N pairs of points: 1 or 0 for each.
+  /// @throws Error bad_input unless `from`, `to` and `result` are of one size.
+  void occluded(PointsView from, PointsView to, std::span<std::uint8_t> result,
+                RayOrder order = RayOrder::incoherent) const;
+
+  /// The same for N segments that end in one point, e.g. a camera's centre.
+  void occluded(PointsView from, const Eigen::Vector3f& to, std::span<std::uint8_t> result,
+                RayOrder order = RayOrder::incoherent) const;
+
+  std::optional<Hit> closest_hit(const Ray& ray) const;
+
+  /// N rays with 0 <= t. `hits` is resized to N.
+  /// @throws Error bad_input unless both are of one size.
+  void closest_hits(PointsView origins, PointsView directions, Hits& hits,
+                    RayOrder order = RayOrder::incoherent) const;
+
+  /// N rays from one origin, e.g. a camera's centre.
+  void closest_hits(const Eigen::Vector3f& origin, PointsView directions, Hits& hits,
+                    RayOrder order = RayOrder::coherent) const;
+
+  /// The depth that an ideal sensor measures: unknown where nothing is hit within the range.
+  DepthImage render_depth(const PinholeCamera& camera) const;
+
+ private:
+  friend class SceneBuilder;
+  explicit Scene(std::unique_ptr<detail::SceneImpl> impl);
+  std::unique_ptr<detail::SceneImpl> impl_;
+};
+
+}  // namespace vantage
