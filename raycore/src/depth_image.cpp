@@ -1,0 +1,70 @@
+#include "vantage/raycore/depth_image.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "vantage/raycore/error.hpp"
+
+namespace vantage {
+namespace {
+
+std::size_t checked_count(int width, int height, std::string_view where) {
+  if (width < 1 || height < 1) {
+    throw bad_input(std::string(where), fmt::format("the image is {}×{} pixels; expected at least "
+                                                    "one pixel",
+                                                    width, height));
+  }
+  return std::size_t(width) * std::size_t(height);
+}
+
+}  // namespace
+
+DepthImage::DepthImage(int width, int height)
+    : width_(width), height_(height), metres_(checked_count(width, height, "depth"), kUnknown) {}
+
+DepthImage::DepthImage(int width, int height, std::vector<float> metres, std::string_view where)
+    : width_(width), height_(height), metres_(std::move(metres)) {
+  if (metres_.size() != checked_count(width, height, where)) {
+    throw bad_input(std::string(where),
+                    fmt::format("{} depths for {}×{} pixels", metres_.size(), width, height));
+  }
+  for (std::size_t i = 0; i < metres_.size(); ++i) {
+    if (metres_[i] < 0) {
+      throw bad_input(std::string(where),
+                      fmt::format("pixel ({}, {}) has the depth {} m; expected 0 or more",
+                                  i % std::size_t(width), i / std::size_t(width), metres_[i]));
+    }
+    if (metres_[i] == 0 || std::isinf(metres_[i])) metres_[i] = kUnknown;
+  }
+}
+
+DepthImage DepthImage::from_counts(const CountImage& counts, double depth_scale_mm,
+                                   std::string_view where) {
+  if (!(std::isfinite(depth_scale_mm) && depth_scale_mm > 0)) {
+    throw bad_input(
+        std::string(where),
+        fmt::format("the depth scale is {} mm; expected a number above 0", depth_scale_mm));
+  }
+  DepthImage depth(counts.width, counts.height);
+  const double scale_m = depth_scale_mm / 1000;
+  for (std::size_t i = 0; i < counts.samples.size(); ++i) {
+    if (counts.samples[i] != 0) depth.metres_[i] = float(counts.samples[i] * scale_m);
+  }
+  return depth;
+}
+
+PosedDepth::PosedDepth(const PinholeCamera& cam, std::shared_ptr<const DepthImage> image,
+                       std::string_view where)
+    : camera(cam), depth(std::move(image)) {
+  if (depth == nullptr) throw bad_input(std::string(where), "there is no depth image");
+  const Intrinsics& k = camera.intrinsics();
+  if (depth->width() == k.width && depth->height() == k.height) return;
+  throw bad_input(std::string(where),
+                  fmt::format("the depth image is {}×{}, the intrinsics are for {}×{} pixels",
+                              depth->width(), depth->height(), k.width, k.height));
+}
+
+}  // namespace vantage

@@ -1,0 +1,119 @@
+// Occlusion of point pairs: the query that classification and scoring spend their time in.
+
+#include <algorithm>
+
+#include "batch.hpp"
+#include "multiversion.hpp"
+#include "packet.hpp"
+#include "scene_impl.hpp"
+#include "vantage/raycore/scene.hpp"
+
+namespace vantage {
+namespace detail {
+namespace {
+
+struct SegmentLanes {
+  const float *from_x, *from_y, *from_z;
+  const float *to_x, *to_y, *to_z;
+};
+
+// kToStride 0: all segments end in one point. kFull: a whole packet, whose loops have a constant
+// length. Both decide at compile time what would otherwise cost as much as a short traversal.
+template <std::size_t kToStride, bool kFull>
+[[gnu::always_inline]] inline bool fill(const SegmentLanes& s, std::size_t first, std::size_t count,
+                                        RTCRay16& rays, int* valid) {
+  int refused = 0;
+  for (std::size_t lane = 0; lane < kPacketWidth; ++lane) {
+    const std::size_t i = first + (kFull ? lane : std::min(lane, count - 1));
+    const float ox = s.from_x[i], oy = s.from_y[i], oz = s.from_z[i];
+    const float dx = s.to_x[i * kToStride] - ox;
+    const float dy = s.to_y[i * kToStride] - oy;
+    const float dz = s.to_z[i * kToStride] - oz;
+    rays.org_x[lane] = ox, rays.org_y[lane] = oy, rays.org_z[lane] = oz;
+    rays.dir_x[lane] = dx, rays.dir_y[lane] = dy, rays.dir_z[lane] = dz;
+    rays.tfar[lane] = 1;
+    const int ok = valid_ray(ox, oy, oz, dx, dy, dz);
+    refused |= 1 - ok;
+    valid[lane] = kFull ? -ok : -(ok & int(lane < count));
+  }
+  return refused == 0;
+}
+
+template <std::size_t kToStride>
+[[gnu::always_inline]] inline bool trace(const PacketJob& job, const SegmentLanes& s,
+                                         std::size_t first, std::size_t last,
+                                         std::uint8_t* result) {
+  QueryContext context(job.coherent);
+  alignas(64) RTCRay16 rays;
+  alignas(64) int valid[kPacketWidth];
+  prepare(rays, job);
+  bool ok = true;
+  std::size_t i = first;
+  for (; i + kPacketWidth <= last; i += kPacketWidth) {
+    ok &= fill<kToStride, true>(s, i, kPacketWidth, rays, valid);
+    context.occluded16(valid, job.scene, &rays);
+    for (std::size_t lane = 0; lane < kPacketWidth; ++lane) result[i + lane] = rays.tfar[lane] < 0;
+  }
+  if (i < last) {
+    ok &= fill<kToStride, false>(s, i, last - i, rays, valid);
+    context.occluded16(valid, job.scene, &rays);
+    for (std::size_t lane = 0; i + lane < last; ++lane) result[i + lane] = rays.tfar[lane] < 0;
+  }
+  return ok;
+}
+
+VANTAGE_MULTIVERSION
+bool trace_pairs(const PacketJob& job, const SegmentLanes& s, std::size_t first, std::size_t last,
+                 std::uint8_t* result) {
+  return trace<1>(job, s, first, last, result);
+}
+
+VANTAGE_MULTIVERSION
+bool trace_to_point(const PacketJob& job, const SegmentLanes& s, std::size_t first,
+                    std::size_t last, std::uint8_t* result) {
+  return trace<0>(job, s, first, last, result);
+}
+
+void occluded_batch(const SceneImpl& scene, PointsView from, const PointLanes& to,
+                    std::span<std::uint8_t> result, RayOrder order) {
+  const PacketJob job{scene.top, scene.use_coherent(order == RayOrder::coherent), 0, 1};
+  const SegmentLanes lanes{from.x, from.y, from.z, to.view.x, to.view.y, to.view.z};
+  const auto kernel = to.stride == 0 ? trace_to_point : trace_pairs;
+  const bool ok = for_each_block(from.size, [&](std::size_t first, std::size_t last) {
+    return kernel(job, lanes, first, last, result.data());
+  });
+  if (!ok) refuse_first_segment(from, to);
+}
+
+}  // namespace
+}  // namespace detail
+
+bool Scene::occluded(const Eigen::Vector3f& from, const Eigen::Vector3f& to) const {
+  const Eigen::Vector3f direction = to - from;
+  if (!detail::valid_ray(from.x(), from.y(), from.z(), direction.x(), direction.y(),
+                         direction.z())) {
+    detail::refuse_first_segment({&from.x(), &from.y(), &from.z(), 1}, detail::PointLanes(to, 1));
+  }
+  RTCRay ray{};
+  ray.org_x = from.x(), ray.org_y = from.y(), ray.org_z = from.z();
+  ray.dir_x = direction.x(), ray.dir_y = direction.y(), ray.dir_z = direction.z();
+  ray.tfar = 1;
+  ray.mask = detail::kAllMasks;
+  detail::QueryContext(false).occluded1(impl_->top, &ray);
+  return ray.tfar < 0;
+}
+
+void Scene::occluded(PointsView from, PointsView to, std::span<std::uint8_t> result,
+                     RayOrder order) const {
+  detail::check_batch_size("the array of end points", to.size, from.size);
+  detail::check_batch_size("the result", result.size(), from.size);
+  detail::occluded_batch(*impl_, from, detail::PointLanes(to), result, order);
+}
+
+void Scene::occluded(PointsView from, const Eigen::Vector3f& to, std::span<std::uint8_t> result,
+                     RayOrder order) const {
+  detail::check_batch_size("the result", result.size(), from.size);
+  detail::occluded_batch(*impl_, from, detail::PointLanes(to, from.size), result, order);
+}
+
+}  // namespace vantage

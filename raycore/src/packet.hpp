@@ -1,0 +1,57 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+
+#include "embree.hpp"
+#include "vantage/raycore/points.hpp"
+
+namespace vantage::detail {
+
+inline constexpr std::size_t kPacketWidth = 16;
+
+// Embree's own limit is 1.8e18; below this one nothing overflows on the way to it either.
+inline constexpr float kFarthestCoordinate = 1e9f;
+
+/// N points that are all the same, or an array of them, behind one way to load a lane.
+struct PointLanes {
+  PointsView view;
+  std::size_t stride;  ///< 0 or 1
+
+  explicit PointLanes(PointsView points) : view(points), stride(1) {}
+  PointLanes(const Eigen::Vector3f& p, std::size_t size)
+      : view{&p.x(), &p.y(), &p.z(), size}, stride(0) {}
+
+  Eigen::Vector3f operator[](std::size_t i) const { return view[i * stride]; }
+};
+
+/// Whether Embree may see a ray. Written so that NaN fails.
+inline bool valid_ray(float ox, float oy, float oz, float dx, float dy, float dz) {
+  const float far = kFarthestCoordinate;
+  return (std::fabs(ox) <= far) & (std::fabs(oy) <= far) & (std::fabs(oz) <= far) &
+         (std::fabs(dx) <= 2 * far) & (std::fabs(dy) <= 2 * far) & (std::fabs(dz) <= 2 * far) &
+         ((dx != 0) | (dy != 0) | (dz != 0));
+}
+
+/// What all rays of a query share.
+struct PacketJob {
+  RTCScene scene;
+  bool coherent;
+  float t_near;
+  float t_far;
+};
+
+/// Sets the fields of a packet that no query changes.
+inline void prepare(RTCRay16& rays, const PacketJob& job) {
+  for (std::size_t lane = 0; lane < kPacketWidth; ++lane) {
+    rays.tnear[lane] = job.t_near;
+    rays.time[lane] = 0;
+    rays.mask[lane] = kAllMasks;
+    rays.id[lane] = 0;
+    rays.flags[lane] = 0;
+  }
+}
+
+}  // namespace vantage::detail

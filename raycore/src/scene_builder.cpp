@@ -1,0 +1,134 @@
+#include "vantage/raycore/scene_builder.hpp"
+
+#include <algorithm>
+#include <cstring>
+#include <map>
+#include <utility>
+
+#include "scene_impl.hpp"
+#include "vantage/raycore/error.hpp"
+
+namespace vantage {
+namespace detail {
+
+SceneImpl::SceneImpl() : device(rtcNewDevice(nullptr)) {
+  if (device == nullptr) {
+    throw Error(ErrorCode::out_of_resources, "scene", "Embree cannot be started on this machine");
+  }
+  top = rtcNewScene(device);
+  check();
+}
+
+SceneImpl::~SceneImpl() {
+  if (top != nullptr) rtcReleaseScene(top);
+  for (const RTCScene scene : shared) rtcReleaseScene(scene);
+  if (device != nullptr) rtcReleaseDevice(device);
+}
+
+void SceneImpl::check() const {
+  const RTCError error = rtcGetDeviceError(device);
+  if (error == RTC_ERROR_NONE) return;
+  throw Error(ErrorCode::out_of_resources, "scene",
+              error == RTC_ERROR_OUT_OF_MEMORY
+                  ? "there is not enough memory for the BVH; use a coarser mesh or larger voxels"
+                  : "Embree failed with error " + std::to_string(int(error)));
+}
+
+namespace {
+
+void attach(const SceneImpl& impl, RTCScene scene, RTCGeometry geometry, ObjectId id) {
+  rtcSetGeometryMask(geometry, kAllMasks);
+  rtcCommitGeometry(geometry);
+  rtcAttachGeometryByID(scene, geometry, id);
+  rtcReleaseGeometry(geometry);
+  impl.check();
+}
+
+void attach_mesh(const SceneImpl& impl, RTCScene scene, const TriangleMesh& mesh, ObjectId id) {
+  if (mesh.empty()) return;
+  RTCGeometry geometry = rtcNewGeometry(impl.device, RTC_GEOMETRY_TYPE_TRIANGLE);
+  const auto fill = [&](RTCBufferType type, RTCFormat format, const auto& items) {
+    const std::size_t item_bytes = sizeof(items[0]);
+    void* buffer = rtcSetNewGeometryBuffer(geometry, type, 0, format, item_bytes, items.size());
+    impl.check();
+    std::memcpy(buffer, items.data(), items.size() * item_bytes);
+  };
+  fill(RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, mesh.vertices());
+  fill(RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT3, mesh.triangles());
+  attach(impl, scene, geometry, id);
+}
+
+void commit(const SceneImpl& impl, RTCScene scene) {
+  // Robust: without it rays slip through shared edges.
+  rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
+  rtcSetSceneBuildQuality(scene, RTC_BUILD_QUALITY_MEDIUM);
+  rtcCommitScene(scene);
+  impl.check();
+}
+
+}  // namespace
+}  // namespace detail
+
+struct SceneBuilder::Impl {
+  std::unique_ptr<detail::SceneImpl> scene = std::make_unique<detail::SceneImpl>();
+  std::map<std::shared_ptr<const TriangleMesh>, RTCScene> shared;
+
+  ObjectId next_object(const Eigen::Matrix3f& normal_to_world) {
+    scene->normal_to_world.push_back(normal_to_world);
+    return ObjectId(scene->normal_to_world.size() - 1);
+  }
+
+  RTCScene shared_scene(const std::shared_ptr<const TriangleMesh>& mesh) {
+    const auto [entry, is_new] = shared.try_emplace(mesh, nullptr);
+    if (is_new) {
+      entry->second = rtcNewScene(scene->device);
+      scene->shared.push_back(entry->second);
+      detail::attach_mesh(*scene, entry->second, *mesh, 0);
+      detail::commit(*scene, entry->second);
+    }
+    return entry->second;
+  }
+};
+
+SceneBuilder::SceneBuilder() : impl_(std::make_unique<Impl>()) {}
+SceneBuilder::~SceneBuilder() = default;
+
+ObjectId SceneBuilder::add_mesh(const TriangleMesh& mesh) {
+  const ObjectId id = impl_->next_object(Eigen::Matrix3f::Identity());
+  detail::attach_mesh(*impl_->scene, impl_->scene->top, mesh, id);
+  impl_->scene->triangle_count += mesh.triangles().size();
+  return id;
+}
+
+ObjectId SceneBuilder::add_box(const Box& box, const Pose& T_world_box) {
+  return add_mesh(TriangleMesh::from_box(box).transformed(T_world_box));
+}
+
+ObjectId SceneBuilder::add_instance(std::shared_ptr<const TriangleMesh> mesh,
+                                    const Pose& T_world_mesh) {
+  if (mesh == nullptr) throw bad_input("scene", "an instance without a mesh (null pointer)");
+  const Eigen::Matrix3f rotation = T_world_mesh.rotation().cast<float>();
+  const ObjectId id = impl_->next_object(rotation);
+  if (mesh->empty()) return id;
+
+  detail::SceneImpl& scene = *impl_->scene;
+  Eigen::Matrix<float, 3, 4> transform;
+  transform << rotation, T_world_mesh.translation().cast<float>();
+  RTCGeometry geometry = rtcNewGeometry(scene.device, RTC_GEOMETRY_TYPE_INSTANCE);
+  rtcSetGeometryInstancedScene(geometry, impl_->shared_scene(mesh));
+  rtcSetGeometryTimeStepCount(geometry, 1);
+  rtcSetGeometryTransform(geometry, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, transform.data());
+  detail::attach(scene, scene.top, geometry, id);
+  scene.triangle_count += mesh->triangles().size();
+  scene.has_instances = true;
+  return id;
+}
+
+std::shared_ptr<const Scene> SceneBuilder::build() {
+  detail::commit(*impl_->scene, impl_->scene->top);
+  std::shared_ptr<const Scene> scene(new Scene(std::move(impl_->scene)));
+  impl_ = std::make_unique<Impl>();
+  return scene;
+}
+
+}  // namespace vantage
