@@ -1,0 +1,75 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <span>
+
+#include "vantage/raycore/api.hpp"
+#include "vantage/raycore/points.hpp"
+#include "vantage/raycore/triangle_mesh.hpp"
+#include "vantage/volume/grid_geometry.hpp"
+
+namespace vantage {
+
+/// What is known of a voxel. The numbers are those of `grid.vdb`.
+enum class VoxelState : std::int32_t {
+  free = 0,      ///< seen through by at least one camera
+  occupied = 1,  ///< inside a known object, or at a measured surface
+  shadow = 2,    ///< neither: no camera sees it
+  revealed = 3,  ///< shadow that the suggested view would see
+};
+
+namespace detail {
+struct StateGridImpl;
+}
+
+/// The state of every voxel in the work area: an immutable, sparse OpenVDB grid whose background is
+/// free. Made by `classify`, shared by `shared_ptr<const StateGrid>`; every method is thread-safe.
+class VANTAGE_API StateGrid {
+ public:
+  explicit StateGrid(std::unique_ptr<const detail::StateGridImpl> impl);
+  ~StateGrid();
+  StateGrid(const StateGrid&) = delete;
+  StateGrid& operator=(const StateGrid&) = delete;
+
+  const GridGeometry& geometry() const noexcept;
+
+  /// Voxels outside the grid are free.
+  VoxelState at(const Eigen::Vector3i& voxel) const;
+
+  /// Whether a voxel is occupied because a depth image shows a surface there, and not because it is
+  /// inside a known object.
+  bool measured(const Eigen::Vector3i& voxel) const;
+
+  std::uint64_t count(VoxelState state) const noexcept;
+  double volume_m3(VoxelState state) const {
+    return double(count(state)) * geometry().voxel_volume_m3();
+  }
+
+  /// The centres of all voxels in a state, world frame, block of 8³ by block: neighbours in the
+  /// list are neighbours in space.
+  Points centres(VoxelState state) const;
+
+  /// This grid with some of its shadow voxels revealed.
+  /// @param seen 1 or 0 for each of `centres(VoxelState::shadow)`, in that order.
+  /// @throws Error bad_input for another number of flags.
+  std::shared_ptr<const StateGrid> with_revealed(std::span<const std::uint8_t> seen) const;
+
+  /// The faces between the voxels of a state and all others, world frame, outwards; coplanar
+  /// neighbours are merged into rectangles.
+  TriangleMesh faces(VoxelState state) const;
+
+  /// The same for the measured part of the occupied voxels.
+  TriangleMesh measured_faces() const;
+
+  /// Writes OpenVDB's int32 grid `state`; its transform maps an index to the voxel's centre.
+  /// @throws Error as `write_file` does.
+  void write_vdb(const std::filesystem::path& path) const;
+
+ private:
+  std::unique_ptr<const detail::StateGridImpl> impl_;
+};
+
+}  // namespace vantage

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <openvdb/openvdb.h>
+
+#include "vantage/raycore/triangle_mesh.hpp"
+#include "vantage/volume/grid_geometry.hpp"
+
+namespace vantage::detail {
+
+/// The faces between the active voxels and all others, outwards, world frame; neighbours in a plane
+/// are merged into rectangles, row by row, then rows of equal extent.
+TriangleMesh voxel_faces(const openvdb::MaskTree& voxels, const GridGeometry& geometry);
+
+}  // namespace vantage::detail
