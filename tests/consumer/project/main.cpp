@@ -1,0 +1,54 @@
+// A box stands between a camera and what the robot wants to see. Ends with 1 if vantage is wrong.
+#include <cmath>
+#include <cstdio>
+#include <exception>
+#include <vantage/raycore/error.hpp>
+#include <vantage/raycore/scene_builder.hpp>
+
+namespace {
+
+bool expect(bool condition, const char* what) {
+  std::printf("%s: %s\n", condition ? "ok" : "WRONG", what);
+  return condition;
+}
+
+bool look_at_a_box() {
+  vantage::SceneBuilder builder;
+  const vantage::ObjectId box = builder.add_box(vantage::Box({-0.1, -0.1, -0.1}, {0.1, 0.1, 0.1}),
+                                                vantage::Pose::from_translation({0, 0, 0.5}));
+  const auto scene = builder.build();
+
+  const Eigen::Vector3f camera(1, 0, 0.5f);
+  bool good = expect(scene->occluded(camera, {-1, 0, 0.5f}), "the box hides what is behind it");
+  good &= expect(!scene->occluded(camera, {-1, 0, 1.5f}), "and not what is above it");
+
+  vantage::Ray ray;
+  ray.origin = camera;
+  ray.direction = {-1, 0, 0};
+  const auto hit = scene->closest_hit(ray);
+  good &= expect(hit && hit->object == box && std::abs(hit->t - 0.9f) < 1e-5f,
+                 "the ray ends on the box, 0.9 m away");
+  return good;
+}
+
+/// An error that is thrown inside the shared library is caught by its type outside of it.
+bool refuse_a_flat_box() {
+  try {
+    vantage::Box({0, 0, 0}, {1, 1, 0}, "the flat box");
+  } catch (const vantage::Error& error) {
+    return expect(error.where() == "the flat box", error.what());
+  }
+  return expect(false, "a box without volume is refused");
+}
+
+}  // namespace
+
+int main() {
+  try {
+    const bool good = look_at_a_box() & refuse_a_flat_box();
+    return good ? 0 : 1;
+  } catch (const std::exception& error) {
+    std::printf("WRONG: %s\n", error.what());
+    return 1;
+  }
+}

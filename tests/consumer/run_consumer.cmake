@@ -1,0 +1,88 @@
+# Installs the build tree, moves the installed tree elsewhere, and builds and runs project/ against
+# it. Proves that the package can be moved, points at neither the build tree nor the sources, shows
+# nothing but Eigen in its headers, and needs none of its own dependencies on a link line.
+
+set(prefix "${work}/prefix")
+set(hidden_dependencies OpenVDB OpenCV TBB embree assimp fmt PNG nlohmann_json)
+
+function(run out)
+  execute_process(COMMAND ${ARGN} RESULT_VARIABLE result OUTPUT_VARIABLE text ERROR_VARIABLE text)
+  if(NOT result EQUAL 0)
+    list(JOIN ARGN " " command)
+    message(FATAL_ERROR "${command}\nended with ${result}:\n${text}")
+  endif()
+  set(${out} "${text}" PARENT_SCOPE)
+endfunction()
+
+function(check_headers_show_only_eigen)
+  file(GLOB_RECURSE headers "${prefix}/include/*")
+  if(NOT headers)
+    message(FATAL_ERROR "no headers were installed")
+  endif()
+  foreach(header IN LISTS headers)
+    file(STRINGS "${header}" includes REGEX "^ *# *include")
+    foreach(include IN LISTS includes)
+      if(NOT include MATCHES "(\"vantage/[a-z0-9_/]+\\.hpp\"|<Eigen/[A-Za-z]+>|<[a-z_]+>)")
+        message(FATAL_ERROR "${header} shows a dependency: ${include}")
+      endif()
+    endforeach()
+  endforeach()
+endfunction()
+
+function(check_package_files_can_be_moved)
+  file(GLOB_RECURSE files "${prefix}/*.cmake")
+  foreach(file IN LISTS files)
+    file(READ "${file}" text)
+    foreach(tree IN ITEMS "${vantage_build}" "${vantage_source}")
+      string(FIND "${text}" "${tree}" position)
+      if(NOT position EQUAL -1)
+        message(FATAL_ERROR "${file} points at ${tree}")
+      endif()
+    endforeach()
+  endforeach()
+endfunction()
+
+function(check_link_line build_output)
+  string(REGEX MATCH "(/lib|-l)(openvdb|opencv|embree|tbb|assimp|boost|fmt|png)[^ ]*" named
+         "${build_output}")
+  if(named)
+    message(FATAL_ERROR "the consumer's link line names ${named}:\n${build_output}")
+  endif()
+endfunction()
+
+# Each library of ours that `program` loads must come from the installed tree.
+function(check_loads_from_prefix program)
+  file(GET_RUNTIME_DEPENDENCIES EXECUTABLES "${program}"
+       RESOLVED_DEPENDENCIES_VAR loaded UNRESOLVED_DEPENDENCIES_VAR not_found)
+  list(FILTER loaded INCLUDE REGEX "/libvantage_")
+  list(FILTER not_found INCLUDE REGEX "^libvantage_")
+  if(not_found OR NOT loaded)
+    message(FATAL_ERROR "${program} does not find '${not_found}', finds '${loaded}'")
+  endif()
+  foreach(library IN LISTS loaded)
+    string(FIND "${library}" "${prefix}/" position)
+    if(NOT position EQUAL 0)
+      message(FATAL_ERROR "${program} loads ${library}, which is not the installed one")
+    endif()
+  endforeach()
+endfunction()
+
+file(REMOVE_RECURSE "${work}")
+run(_ "${CMAKE_COMMAND}" --install "${vantage_build}" --prefix "${work}/first-prefix")
+file(RENAME "${work}/first-prefix" "${prefix}")
+check_headers_show_only_eigen()
+check_package_files_can_be_moved()
+
+list(TRANSFORM hidden_dependencies REPLACE "(.+)" "-DCMAKE_DISABLE_FIND_PACKAGE_\\1=ON")
+run(_ "${CMAKE_COMMAND}" -S "${CMAKE_CURRENT_LIST_DIR}/project" -B "${work}/build"
+    -G "${generator}" "-DCMAKE_CXX_COMPILER=${compiler}" "-DCMAKE_PREFIX_PATH=${prefix}"
+    -DCMAKE_FIND_USE_PACKAGE_REGISTRY=OFF -DCMAKE_FIND_USE_SYSTEM_PACKAGE_REGISTRY=OFF
+    "-DVANTAGE_EXPECTED_VERSION=${version}" ${hidden_dependencies})
+run(build_output "${CMAKE_COMMAND}" --build "${work}/build" --verbose)
+check_link_line("${build_output}")
+check_loads_from_prefix("${work}/build/consumer")
+check_loads_from_prefix("${prefix}/bin/vantage")
+run(printed "${work}/build/consumer")
+message("${printed}")
+run(printed "${prefix}/bin/vantage" --version)
+message("${printed}")
