@@ -1,0 +1,30 @@
+#include "command.hpp"
+
+#include <chrono>
+
+namespace vantage {
+
+void CommonOptions::add_to(CLI::App& verb) {
+  CLI::Option* folder = verb.add_option("-o,--output", output.folder,
+                                        "Folder for the results; it is made if it is missing");
+  verb.add_flag("--json", output.json, "Print plan.json on stdout instead of a summary");
+  verb.add_flag("--save-grid", output.save_grid, "Write grid.vdb: the state of every voxel")
+      ->needs(folder);
+  verb.add_flag("--save-surface", output.save_surface, "Write shadow.ply: the shadow's surface")
+      ->needs(folder);
+  verb.add_flag("--save-scene", output.save_scene, "Write scene.glb: voxels and cameras in 3D")
+      ->needs(folder);
+  verb.add_option("--threads", threads, "Threads to use (0: all)")->check(CLI::Range(0, 1024));
+  verb.add_option("--deadline-ms", deadline_ms,
+                  "Return the best view found after this time (exit code 5 if not all were scored)")
+      ->check(CLI::Range(0.0, 1e9));
+}
+
+RunOptions CommonOptions::run(StopToken::Clock::time_point start) const {
+  if (!deadline_ms) return {threads, StopToken()};
+  const auto time = std::chrono::duration_cast<StopToken::Clock::duration>(
+      std::chrono::duration<double, std::milli>(*deadline_ms));
+  return {threads, StopToken::with_deadline(start + time)};
+}
+
+}  // namespace vantage

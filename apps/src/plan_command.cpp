@@ -1,0 +1,80 @@
+#include <memory>
+
+#include "command.hpp"
+#include "plan_input.hpp"
+#include "vantage/raycore/error.hpp"
+
+namespace vantage {
+namespace {
+
+struct PlanArguments {
+  PlanOptions plan;
+  CommonOptions common;
+  std::string method = "voxel";
+  std::string candidates = "production";
+};
+
+void add_input_options(CLI::App& verb, PlanOptions& plan) {
+  verb.add_option("dataset", plan.dataset, "BOP scene folder: scene_camera.json, depth/, rgb/")
+      ->required();
+  CLI::Option* workcell = verb.add_option("--workcell", plan.workcell,
+                                          "Workcell file (YAML); options given here win over it");
+  CLI::Option* area =
+      verb.add_option("--work-area", plan.work_area,
+                      "The box to look into: X0 Y0 Z0 X1 Y1 Z1, metres, world frame")
+          ->expected(6);
+  verb.add_option("--images", plan.images, "Use these images of the dataset only, e.g. 0,20,40")
+      ->delimiter(',');
+  verb.add_option("--depth-range", plan.depth_range,
+                  "NEAR FAR: depths that the cameras measure, metres")
+      ->expected(2);
+  verb.callback([=] {
+    if (workcell->count() + area->count() == 0) {
+      throw CLI::ValidationError("plan",
+                                 "give --workcell FILE or --work-area X0 Y0 Z0 X1 Y1 Z1: "
+                                 "which volume matters is not in the dataset");
+    }
+  });
+}
+
+void add_planning_options(CLI::App& verb, PlanArguments& arguments) {
+  verb.add_option("--method", arguments.method, "How views are scored")
+      ->check(CLI::IsMember({"voxel"}))
+      ->capture_default_str();
+  verb.add_option("--candidates", arguments.candidates,
+                  "Candidate views; production: two half-spheres of 20 that look at the centre")
+      ->check(CLI::IsMember({"production"}))
+      ->capture_default_str();
+  verb.add_option("--radii", arguments.plan.radii_m,
+                  "Radii of the half-spheres, metres, e.g. 0.6,0.9 (default: from the work area)")
+      ->delimiter(',');
+  verb.add_option("--count", arguments.plan.count, "Candidates on each half-sphere (default: 20)");
+  verb.add_option("--voxel-size", arguments.plan.voxel_size_m,
+                  "Edge of a voxel, metres (default: 0.009375)");
+  verb.add_flag("--pictures", arguments.common.output.pictures, "Write overview.png and view.png")
+      ->needs(verb.get_option("--output"));
+}
+
+ExitCode plan(const PlanArguments& arguments) {
+  const auto start = StopToken::Clock::now();
+  PlanInput input = load_plan_input(arguments.plan);
+  input.record.config["deadline_ms"] = arguments.common.deadline_ms
+                                           ? nlohmann::ordered_json(*arguments.common.deadline_ms)
+                                           : nlohmann::ordered_json();
+  return run_plan(input.world, input.request, input.record, arguments.common.output,
+                  arguments.common.run(start), start);
+}
+
+}  // namespace
+
+void add_plan_command(CLI::App& app, Action& action) {
+  CLI::App* verb = app.add_subcommand("plan", "Find the next view for a recording");
+  const auto arguments = std::make_shared<PlanArguments>();
+  arguments->common.add_to(*verb);
+  add_input_options(*verb, arguments->plan);
+  add_planning_options(*verb, *arguments);
+  verb->parse_complete_callback(
+      [&action, arguments] { action = [=] { return plan(*arguments); }; });
+}
+
+}  // namespace vantage

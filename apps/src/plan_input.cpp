@@ -1,0 +1,75 @@
+#include "plan_input.hpp"
+
+#include <chrono>
+
+#include "vantage/raycore/error.hpp"
+#include "vantage/reconstruction/bop_scene.hpp"
+#include "workcell.hpp"
+
+namespace vantage {
+namespace {
+
+/// The workcell file with the command line's settings on top.
+Workcell workcell_of(const PlanOptions& options) {
+  std::optional<Box> area;
+  if (!options.work_area.empty()) {
+    const double* c = options.work_area.data();
+    area.emplace(Eigen::Vector3d(c[0], c[1], c[2]), Eigen::Vector3d(c[3], c[4], c[5]),
+                 "--work-area");
+  }
+  if (options.workcell.empty()) return {.work_area = area.value()};
+  Workcell workcell = load_workcell(options.workcell);
+  if (area) workcell.work_area = *area;
+  return workcell;
+}
+
+std::vector<Observer> observers_of(const BopScene& scene) {
+  std::vector<Observer> observers;
+  for (const BopImage& image : scene.images) {
+    observers.push_back({std::to_string(image.id), image.camera, image.depth});
+  }
+  return observers;
+}
+
+PlanRequest request_of(const Workcell& workcell, const PlanOptions& options,
+                       const Intrinsics& first_camera) {
+  PlanRequest request{.work_area = workcell.work_area,
+                      .intrinsics = workcell.movable_intrinsics.value_or(first_camera),
+                      .range = workcell.movable_range};
+  request.radii_m = options.radii_m.empty() ? workcell.candidate_radii_m : options.radii_m;
+  request.candidates_per_half_sphere = options.count.value_or(workcell.candidates_per_half_sphere);
+  request.reach = workcell.reach;
+  if (workcell.voxel_size_m) request.voxel_size_m = *workcell.voxel_size_m;
+  if (options.voxel_size_m) request.voxel_size_m = *options.voxel_size_m;
+  return request;
+}
+
+}  // namespace
+
+PlanInput load_plan_input(const PlanOptions& options) {
+  const auto start = std::chrono::steady_clock::now();
+  Workcell workcell = workcell_of(options);
+  if (!options.depth_range.empty()) {
+    const DepthRange range{options.depth_range[0], options.depth_range[1]};
+    range.check("--depth-range");
+    workcell.sensor_range = workcell.movable_range = range;
+  }
+  const BopScene scene = load_bop_scene(options.dataset, workcell.sensor_range, options.images);
+
+  PlanInput input{{workcell.known_objects, workcell.static_structures, observers_of(scene)},
+                  request_of(workcell, options, scene.images.front().camera.intrinsics()),
+                  {}};
+  input.record.inputs = workcell.files;
+  input.record.inputs.insert(input.record.inputs.end(), scene.files.begin(), scene.files.end());
+  input.record.config = {
+      {"dataset", options.dataset.string()},
+      {"workcell", options.workcell.empty() ? nlohmann::ordered_json()
+                                            : nlohmann::ordered_json(options.workcell.string())},
+      {"images", options.images},
+      {"sensor_depth_range_m", {workcell.sensor_range.near_m, workcell.sensor_range.far_m}}};
+  input.record.load_s =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return input;
+}
+
+}  // namespace vantage

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "plan_json.hpp"
+#include "vantage/planner/plan.hpp"
+#include "vantage/raycore/world_model.hpp"
+
+namespace vantage {
+
+/// What `vantage plan` was asked for. What is set here wins over the workcell file.
+struct PlanOptions {
+  std::filesystem::path dataset;
+  std::filesystem::path workcell;   ///< empty: none
+  std::vector<double> work_area;    ///< x0 y0 z0 x1 y1 z1; empty: from the workcell
+  std::vector<int> images;          ///< empty: all of the dataset
+  std::vector<double> depth_range;  ///< near, far of all cameras; empty: from the workcell
+  std::vector<double> radii_m;
+  std::optional<int> count;
+  std::optional<double> voxel_size_m;
+};
+
+/// All that planning needs.
+struct PlanInput {
+  WorldModel world;
+  PlanRequest request;
+  PlanRecord record;
+};
+
+/// Loads the dataset and the workcell.
+/// @throws Error bad_input as `load_bop_scene` and `load_workcell` do, and for options that do not
+/// make sense.
+PlanInput load_plan_input(const PlanOptions& options);
+
+}  // namespace vantage

@@ -1,0 +1,220 @@
+#include "plan_pictures.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "shapes.hpp"
+#include "vantage/raycore/image_io.hpp"
+#include "vantage/raycore/mesh_io.hpp"
+#include "vantage/raycore/picture.hpp"
+#include "vantage/raycore/scene_builder.hpp"
+
+namespace vantage {
+namespace {
+
+const Eigen::Vector3f kOccupied(0.42f, 0.70f, 0.36f);
+const Eigen::Vector3f kShadow(0.86f, 0.24f, 0.20f);
+const Eigen::Vector3f kRevealed(0.16f, 0.76f, 0.82f);
+const Eigen::Vector3f kGivenCamera(0.50f, 0.52f, 0.55f);
+const Eigen::Vector3f kSuggestedCamera(0.90f, 0.08f, 0.06f);
+const Eigen::Vector3f kWorkArea(0.35f, 0.37f, 0.40f);
+const Eigen::Vector3f kFloor(0.90f, 0.90f, 0.91f);
+
+constexpr int kOverviewWidth = 1280, kOverviewHeight = 800;
+
+/// Sizes of what is drawn follow the work area.
+double scale_of(const Plan& plan) {
+  return 0.5 * plan.request.work_area.size().norm();
+}
+
+std::optional<PinholeCamera> suggested_camera(const Plan& plan) {
+  if (!plan.best) return std::nullopt;
+  return PinholeCamera(plan.request.intrinsics, plan.candidates[*plan.best].view.T_world_cam,
+                       plan.request.range);
+}
+
+double frustum_length(const PinholeCamera& camera, const Plan& plan) {
+  return 0.35 * (camera.centre() - plan.request.work_area.centre()).norm();
+}
+
+TriangleMesh shape_of(const PinholeCamera& camera, const Plan& plan) {
+  const double scale = scale_of(plan);
+  return camera_shape(camera, 0.22 * scale, frustum_length(camera, plan), 0.006 * scale);
+}
+
+std::vector<ColoredMesh> voxel_meshes(const StateGrid& grid) {
+  return {{"occupied", grid.faces(VoxelState::occupied), kOccupied},
+          {"shadow", grid.faces(VoxelState::shadow), kShadow},
+          {"revealed", grid.faces(VoxelState::revealed), kRevealed}};
+}
+
+std::vector<ColoredMesh> camera_meshes(const Plan& plan, const WorldModel& world) {
+  std::vector<ColoredMesh> meshes{
+      {"work area", box_edges(plan.request.work_area, 0.004 * scale_of(plan)), kWorkArea}};
+  for (const Observer& observer : world.cameras) {
+    meshes.push_back({"camera " + observer.name, shape_of(observer.camera, plan), kGivenCamera});
+  }
+  if (const auto camera = suggested_camera(plan)) {
+    meshes.push_back({"suggested camera", shape_of(*camera, plan), kSuggestedCamera});
+  }
+  return meshes;
+}
+
+/// A scene to draw, with its objects' looks.
+class Stage {
+ public:
+  explicit Stage(const Plan& plan) : plan_(plan) {}
+
+  void add_voxels() {
+    const GridGeometry& geometry = plan_.grid->geometry();
+    for (const ColoredMesh& part : voxel_meshes(*plan_.grid)) {
+      Material material{part.color};
+      material.line_spacing_m = float(geometry.voxel_size_m());
+      material.line_width_m = 0.1f * material.line_spacing_m;
+      material.line_shade = 0.55f;
+      material.line_origin = geometry.origin().cast<float>();
+      add(part.mesh, material);
+    }
+  }
+
+  void add_cameras(const WorldModel& world) {
+    for (const ColoredMesh& part : camera_meshes(plan_, world)) add(part.mesh, {part.color});
+  }
+
+  void add_floor() {
+    const double scale = scale_of(plan_), side = 40 * scale;
+    const Eigen::Vector3d centre = plan_.request.work_area.centre();
+    const double top = std::min(0.0, plan_.request.work_area.min().z()) - 1e-3 * scale;
+    Material material{kFloor};
+    material.line_spacing_m = 0.1f;
+    material.line_width_m = 0.002f;
+    material.line_shade = 0.85f;
+    material.fade_centre = Eigen::Vector3d(centre.x(), centre.y(), top).cast<float>();
+    material.fade_from_m = float(2 * scale);
+    material.fade_to_m = float(7 * scale);
+    add(TriangleMesh::from_box(Box(Eigen::Vector3d(centre.x() - side, centre.y() - side, top - 0.1),
+                                   Eigen::Vector3d(centre.x() + side, centre.y() + side, top))),
+        material);
+  }
+
+  void draw(const std::filesystem::path& path, const PinholeCamera& camera, const StopToken& stop) {
+    PictureOptions options;
+    options.sky_reach_m = float(1.2 * scale_of(plan_));
+    // From above, over the viewer's left shoulder: what is seen is lit, and shadows fall aside.
+    const Eigen::Matrix3d& R = camera.T_world_cam().rotation();
+    const Eigen::Vector3d back =
+        (-R.col(2) - 0.9 * R.col(0)).cwiseProduct(Eigen::Vector3d(1, 1, 0));
+    options.to_sun = (back.normalized() + Eigen::Vector3d(0, 0, 1.25)).cast<float>();
+    const std::shared_ptr<const Scene> scene = builder_.build();
+    if (const auto image = render_picture(*scene, materials_, camera, options, stop)) {
+      write_png(path, *image);
+    }
+  }
+
+ private:
+  void add(const TriangleMesh& mesh, const Material& material) {
+    builder_.add_mesh(mesh);
+    materials_.push_back(material);
+  }
+
+  const Plan& plan_;
+  SceneBuilder builder_;
+  std::vector<Material> materials_;
+};
+
+/// Everything that the overview has to show.
+std::vector<Eigen::Vector3d> points_of_interest(const Plan& plan, const WorldModel& world) {
+  std::vector<Eigen::Vector3d> points;
+  const Box& area = plan.request.work_area;
+  for (int corner = 0; corner < 8; ++corner) {
+    points.emplace_back((corner & 1 ? area.max() : area.min()).x(),
+                        (corner & 2 ? area.max() : area.min()).y(),
+                        (corner & 4 ? area.max() : area.min()).z());
+  }
+  const auto add = [&](const PinholeCamera& camera) {
+    const TriangleMesh shape = shape_of(camera, plan);
+    for (const Eigen::Vector3f& p : shape.vertices()) {
+      points.push_back(p.cast<double>());
+    }
+  };
+  for (const Observer& observer : world.cameras) add(observer.camera);
+  if (const auto camera = suggested_camera(plan)) add(*camera);
+  return points;
+}
+
+double azimuth_of(const Eigen::Vector3d& v) {
+  return std::atan2(v.y(), v.x());
+}
+
+/// From which azimuth to look: beside the suggested camera, on the side where the mean of the given
+/// ones is, so that both of them are seen and neither stands in the way.
+double overview_azimuth(const Plan& plan, const WorldModel& world) {
+  const Eigen::Vector3d centre = plan.request.work_area.centre();
+  Eigen::Vector3d given = Eigen::Vector3d::Zero();
+  for (const Observer& observer : world.cameras) given += observer.camera.centre() - centre;
+  const double given_azimuth = azimuth_of(given);
+  const auto camera = suggested_camera(plan);
+  if (!camera) return given_azimuth + std::numbers::pi / 3;
+  const Eigen::Vector3d suggested = camera->centre() - centre;
+  const bool from_above = suggested.head<2>().norm() < 0.3 * suggested.norm();
+  if (from_above) return given_azimuth + std::numbers::pi / 3;
+  const double turn = std::remainder(given_azimuth - azimuth_of(suggested), 2 * std::numbers::pi);
+  return azimuth_of(suggested) + (turn < 0 ? -1 : 1) * std::numbers::pi / 3.6;
+}
+
+/// A camera far enough away for a calm perspective; focal length and principal point are such that
+/// the points fill the picture.
+PinholeCamera overview_camera(const Plan& plan, const WorldModel& world) {
+  const std::vector<Eigen::Vector3d> points = points_of_interest(plan, world);
+  Eigen::Vector3d low = points.front(), high = points.front();
+  for (const Eigen::Vector3d& p : points) low = low.cwiseMin(p), high = high.cwiseMax(p);
+  const Eigen::Vector3d centre = 0.5 * (low + high);
+  const double azimuth = overview_azimuth(plan, world), elevation = 0.55;
+  const Eigen::Vector3d direction(std::cos(elevation) * std::cos(azimuth),
+                                  std::cos(elevation) * std::sin(azimuth), std::sin(elevation));
+  const Pose pose = Pose::looking_at(centre + 1.5 * (high - low).norm() * direction, centre);
+
+  const PinholeCamera unit({kOverviewWidth, kOverviewHeight, 1, 1, 0, 0}, pose);
+  Eigen::Array2d least(1e9, 1e9), most(-1e9, -1e9);
+  for (const Eigen::Vector3d& p : points) {
+    const std::optional<ImagePoint> q = unit.project(p);
+    least = least.min(Eigen::Array2d(q->u, q->v)), most = most.max(Eigen::Array2d(q->u, q->v));
+  }
+  const Eigen::Array2d size(kOverviewWidth, kOverviewHeight);
+  const double focal = (0.93 * size / (most - least)).minCoeff();
+  const Eigen::Array2d principal = 0.5 * size - focal * 0.5 * (least + most);
+  return PinholeCamera(
+      {kOverviewWidth, kOverviewHeight, focal, focal, principal.x(), principal.y()}, pose);
+}
+
+}  // namespace
+
+void write_overview(const std::filesystem::path& path, const Plan& plan, const WorldModel& world,
+                    const StopToken& stop) {
+  Stage stage(plan);
+  stage.add_voxels();
+  stage.add_cameras(world);
+  stage.add_floor();
+  stage.draw(path, overview_camera(plan, world), stop);
+}
+
+void write_suggested_view(const std::filesystem::path& path, const Plan& plan,
+                          const StopToken& stop) {
+  Stage stage(plan);
+  stage.add_voxels();
+  stage.add_floor();
+  stage.draw(path, suggested_camera(plan).value(), stop);
+}
+
+void write_scene_model(const std::filesystem::path& path, const Plan& plan,
+                       const WorldModel& world) {
+  std::vector<ColoredMesh> meshes = voxel_meshes(*plan.grid);
+  for (ColoredMesh& mesh : camera_meshes(plan, world)) meshes.push_back(std::move(mesh));
+  write_glb(path, meshes);
+}
+
+}  // namespace vantage

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <string>
+#include <thread>
+
+#include "vantage/raycore/stop_token.hpp"
+
+namespace vantage {
+
+/// Shows a token's progress on stderr while it lives, if stderr is a terminal.
+class ProgressLine {
+ public:
+  ProgressLine(std::string what, const StopToken& token);
+
+ private:
+  std::jthread thread_;  // stops and joins when the line goes
+};
+
+}  // namespace vantage

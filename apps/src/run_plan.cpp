@@ -1,0 +1,89 @@
+#include "run_plan.hpp"
+
+#include <spdlog/spdlog.h>
+#include <tbb/global_control.h>
+#include <tbb/task_arena.h>
+
+#include <iostream>
+
+#include "interrupt.hpp"
+#include "plan_pictures.hpp"
+#include "progress_line.hpp"
+#include "vantage/raycore/error.hpp"
+#include "vantage/raycore/file.hpp"
+#include "vantage/raycore/mesh_io.hpp"
+
+namespace vantage {
+namespace {
+
+namespace fs = std::filesystem;
+
+void make_folder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) throw bad_input(folder.string(), "cannot make this folder: " + error.message());
+}
+
+void write_extras(const Plan& plan, const WorldModel& world, const OutputOptions& output,
+                  const StopToken& stop) {
+  const auto write = [&](bool wanted, const char* name, const auto& writer) {
+    if (!wanted || stop.stop_requested()) return;
+    writer(output.folder / name);
+    if (!stop.stop_requested()) spdlog::info("wrote {}", (output.folder / name).string());
+  };
+  write(output.save_grid, "grid.vdb", [&](const fs::path& p) { plan.grid->write_vdb(p); });
+  write(output.save_surface, "shadow.ply",
+        [&](const fs::path& p) { write_ply(p, plan.grid->faces(VoxelState::shadow)); });
+  write(output.save_scene, "scene.glb",
+        [&](const fs::path& p) { write_scene_model(p, plan, world); });
+  write(output.pictures, "overview.png",
+        [&](const fs::path& p) { write_overview(p, plan, world, stop); });
+  write(output.pictures && plan.best, "view.png",
+        [&](const fs::path& p) { write_suggested_view(p, plan, stop); });
+}
+
+ExitCode exit_code_of(const Plan& plan) {
+  switch (plan.stopped) {
+    case StopReason::cancelled:
+      return ExitCode::cancelled;
+    case StopReason::deadline:
+      return ExitCode::deadline;
+    case StopReason::none:
+      break;
+  }
+  return plan.best ? ExitCode::ok : ExitCode::no_feasible_view;
+}
+
+}  // namespace
+
+ExitCode run_plan(const WorldModel& world, const PlanRequest& request, PlanRecord record,
+                  const OutputOptions& output, const RunOptions& run,
+                  StopToken::Clock::time_point start) {
+  const int threads = run.threads > 0 ? run.threads : tbb::info::default_concurrency();
+  const tbb::global_control allow(tbb::global_control::max_allowed_parallelism,
+                                  std::size_t(threads));
+  tbb::task_arena arena(threads);
+  const StopToken drawing;  // pictures know no deadline
+  const Interrupt interrupt({run.stop, drawing});
+  if (!output.folder.empty()) make_folder(output.folder);
+
+  const Plan plan = arena.execute([&] {
+    const ProgressLine progress("planning", run.stop);
+    return plan_next_view(world, request, run.stop);
+  });
+  record.total_s = std::chrono::duration<double>(StopToken::Clock::now() - start).count();
+  record.config.update(config_of(plan.request));
+  const std::string json = plan_to_json(plan, record).dump(1) + "\n";
+  if (!output.folder.empty()) {
+    write_file(output.folder / "plan.json", json);
+    spdlog::info("wrote {}", (output.folder / "plan.json").string());
+  }
+  std::cout << (output.json ? json : summary_of(plan)) << std::flush;
+  if (plan.grid != nullptr) {
+    arena.execute([&] { write_extras(plan, world, output, drawing); });
+  }
+  if (drawing.stop_requested()) return ExitCode::cancelled;
+  return exit_code_of(plan);
+}
+
+}  // namespace vantage

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <filesystem>
+
+#include "exit_code.hpp"
+#include "plan_json.hpp"
+#include "vantage/planner/plan.hpp"
+#include "vantage/raycore/stop_token.hpp"
+#include "vantage/raycore/world_model.hpp"
+
+namespace vantage {
+
+/// What a command that plans writes, and where.
+struct OutputOptions {
+  std::filesystem::path folder = {};  ///< empty: nothing is written but the answer on stdout
+  bool json = false;                  ///< stdout gets plan.json instead of the summary
+  bool save_grid = false;             ///< grid.vdb
+  bool save_surface = false;          ///< shadow.ply: the shadow's surface
+  bool save_scene = false;            ///< scene.glb: everything, for a viewer
+  bool pictures = false;              ///< overview.png and view.png
+};
+
+/// How it is to be computed.
+struct RunOptions {
+  int threads = 0;  ///< 0: as many as the machine has
+  StopToken stop = {};
+};
+
+/// Plans, writes and prints. Ctrl-C ends the work early; what is done by then is written.
+/// @param start when the command began, for `timing_ms`; `record.load_s` is filled in already.
+ExitCode run_plan(const WorldModel& world, const PlanRequest& request, PlanRecord record,
+                  const OutputOptions& output, const RunOptions& run,
+                  StopToken::Clock::time_point start);
+
+}  // namespace vantage

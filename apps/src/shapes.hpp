@@ -1,0 +1,30 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "vantage/raycore/box.hpp"
+#include "vantage/raycore/camera.hpp"
+#include "vantage/raycore/triangle_mesh.hpp"
+
+namespace vantage {
+
+/// Things to show in pictures and models; world frame, metres.
+
+/// Several meshes as one.
+TriangleMesh joined(const std::vector<TriangleMesh>& meshes);
+
+/// A rod with round ends left open, from a to b.
+TriangleMesh rod(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double radius_m);
+
+/// The twelve edges of a box as rods.
+TriangleMesh box_edges(const Box& box, double radius_m);
+
+/// The corners of a camera's image at a depth: the far end of its frustum.
+std::vector<Eigen::Vector3d> frustum_corners(const PinholeCamera& camera, double depth_m);
+
+/// A camera: its body of a depth camera's proportions, and its frustum up to a depth as rods.
+TriangleMesh camera_shape(const PinholeCamera& camera, double body_width_m, double frustum_m,
+                          double rod_radius_m);
+
+}  // namespace vantage

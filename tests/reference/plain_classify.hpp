@@ -1,0 +1,47 @@
+#pragma once
+
+#include "reference/moller_trumbore.hpp"
+#include "vantage/raycore/world_model.hpp"
+#include "vantage/volume/grid_geometry.hpp"
+#include "vantage/volume/state_grid.hpp"
+
+namespace vantage::test {
+
+/// What the plain algorithm says of a voxel. `close_call`: some decision on the way was within
+/// `kCloseCall` of falling the other way, so that float and double may disagree.
+struct PlainState {
+  VoxelState state = VoxelState::shadow;
+  bool measured = false;
+  bool close_call = false;
+};
+
+/// The slow, obvious twin of `classify`: voxel by voxel, camera by camera, in double precision,
+/// every ray against every triangle; a point is inside a mesh if the mesh surrounds it (the sum of
+/// the triangles' solid angles is 4π).
+class PlainClassifier {
+ public:
+  /// Both must outlive the classifier.
+  PlainClassifier(const WorldModel& world, const GridGeometry& geometry);
+
+  PlainState classify(const Eigen::Vector3i& voxel) const;
+
+  /// Whether a camera sees a point past all known objects; what it measured is left aside.
+  Verdict hidden(const PinholeCamera& camera, const Eigen::Vector3d& point) const;
+
+ private:
+  bool inside_known(const Eigen::Vector3d& point, bool& close_call) const;
+  enum class Says { nothing, free, surface };
+  Says ask(const Observer& observer, const Eigen::Vector3i& voxel, bool& close_call) const;
+  bool holds_measured_point(const Observer& observer, const Eigen::Vector3i& voxel,
+                            bool& close_call) const;
+
+  const WorldModel& world_;
+  const GridGeometry& geometry_;
+  ReferenceScene known_;
+  std::vector<TriangleMesh> solids_;
+};
+
+/// Whether a point is in a camera's image and depth range.
+bool plain_in_view(const PinholeCamera& camera, const Eigen::Vector3d& point, bool& close_call);
+
+}  // namespace vantage::test
