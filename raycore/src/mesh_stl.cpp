@@ -30,7 +30,7 @@ bool is_binary(std::span<const std::uint8_t> bytes) {
   if (bytes.size() >= kHeaderBytes && stated_size(bytes) == bytes.size()) return true;
   TextScanner text(as_text(bytes), "");
   if (!equal_ignoring_case(text.word_anywhere(), "solid")) return true;
-  return std::ranges::count(bytes.first(std::min(bytes.size(), kHeaderBytes)), 0) > 0;
+  return std::ranges::find(bytes, 0) != bytes.end();
 }
 
 void check_binary_size(std::span<const std::uint8_t> bytes, const std::string& file) {

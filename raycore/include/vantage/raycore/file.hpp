@@ -18,12 +18,14 @@ namespace vantage {
 VANTAGE_API std::vector<std::uint8_t> read_file(const std::filesystem::path& path,
                                                 std::size_t max_bytes = std::size_t(4) << 30);
 
-/// Writes `bytes` beside `path` and renames: the file is there whole, or as it was before.
-/// @throws Error bad_input if the folder is missing or cannot be written; out_of_resources if the
-/// disk is full.
+/// Writes `bytes` beside `path` and renames: the file is there whole, or as it was before. Many may
+/// write the same path at once; the last one wins.
+/// @throws Error bad_input if the folder is missing or cannot be written, or if `path` is a folder
+/// or a device; out_of_resources if the disk is full.
 VANTAGE_API void write_file(const std::filesystem::path& path, std::string_view bytes);
 
-/// The same for a writer that wants a path: `write` gets the temporary file's.
+/// The same for a writer that wants a path: `write` gets the temporary file's, which has the same
+/// ending as `path`. What `write` throws is passed on, and the temporary is removed.
 VANTAGE_API void write_file_with(const std::filesystem::path& path,
                                  const std::function<void(const std::filesystem::path&)>& write);
 

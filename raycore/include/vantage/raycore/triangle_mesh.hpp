@@ -41,9 +41,12 @@ class VANTAGE_API TriangleMesh {
     return vertices_[triangles_[triangle][std::size_t(corner)]];
   }
 
+  /// Computed in double. The count of dropped faces goes on, here and in `scaled`.
+  /// @throws Error bad_input if a vertex comes to lie too far out.
   TriangleMesh transformed(const Pose& T_target_mesh) const;
 
-  /// Every coordinate times `factor`; factor must be positive and finite.
+  /// Every coordinate times `factor`, computed in double.
+  /// @throws Error bad_input unless `factor` is positive and finite, or as `transformed` does.
   TriangleMesh scaled(double factor) const;
 
  private:
