@@ -1,0 +1,11 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+namespace vantage {
+
+/// The files of assets/schema, compiled in: the binary needs no folder beside it.
+const nlohmann::json& workcell_schema();
+const nlohmann::json& plan_schema();
+
+}  // namespace vantage

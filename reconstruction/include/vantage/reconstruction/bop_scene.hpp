@@ -1,0 +1,43 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "vantage/raycore/api.hpp"
+#include "vantage/raycore/camera.hpp"
+#include "vantage/raycore/depth_image.hpp"
+
+namespace vantage {
+
+/// One image of a BOP scene, and with it one camera.
+struct BopImage {
+  int id = 0;
+  PinholeCamera camera;
+  std::shared_ptr<const DepthImage> depth;  ///< null for a scene without a depth folder
+  std::filesystem::path color;              ///< for `read_color`; empty if there is none
+};
+
+/// A recording in the format of the BOP benchmark (https://github.com/thodan/bop_toolkit).
+struct BopScene {
+  std::filesystem::path folder;
+  std::vector<BopImage> images;              ///< ascending by id, never empty
+  std::vector<std::filesystem::path> files;  ///< every file that was read
+};
+
+/// Reads `scene_camera.json` and depth/%06d.png; of rgb/%06d.{png,jpg} only the size.
+///
+/// `cam_K` is row-major in pixels; the pose is the inverse of (`cam_R_w2c`, `cam_t_w2c` in mm); a
+/// raw depth times `depth_scale` is in mm. The image's size is that of its depth, else of its
+/// colour, else the entry's `width` and `height`; whatever of these is there has to agree.
+/// @param range of every camera: BOP does not store it.
+/// @param only_ids loads no other image; empty means all.
+/// @throws Error bad_input with the file, the image's id and the key: for files that are missing or
+/// damaged, keys that are missing or of the wrong type or length, no camera pose, a matrix that is
+/// no rotation, intrinsics that do not fit the image, an id that is there twice or not at all.
+VANTAGE_API BopScene load_bop_scene(const std::filesystem::path& folder,
+                                    const DepthRange& range = {},
+                                    std::span<const int> only_ids = {});
+
+}  // namespace vantage

@@ -1,0 +1,13 @@
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+namespace vantage::detail {
+
+/// Parses a JSON file that nobody vouches for.
+/// @throws Error bad_input with file:line:column for a syntax error and for nesting deeper than 64;
+/// for a key that is there twice; for a file that is missing or above 64 MiB.
+nlohmann::json parse_json_file(const std::filesystem::path& path);
+
+}  // namespace vantage::detail

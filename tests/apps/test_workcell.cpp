@@ -1,0 +1,195 @@
+#include "workcell.hpp"
+
+#include <doctest/doctest.h>
+
+#include <string>
+
+#include "support/caught.hpp"
+#include "support/test_data.hpp"
+
+namespace vantage::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path kShipped = fs::path(__FILE__).parent_path() / "../../assets/workcells";
+constexpr std::string_view kArea = "work_area: {min_m: [-1, -2, 0], max_m: [1, 2, 0.5]}\n";
+constexpr std::string_view kStl =
+    "solid t\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1000 0 0\nvertex 0 1000 0\n"
+    "endloop\nendfacet\nendsolid t\n";
+
+Workcell load(const TemporaryFolder& folder, const std::string& text) {
+  return load_workcell(folder.write("cell.yaml", text));
+}
+
+/// `text` follows a good first line.
+void check_text_refused(const std::string& text, std::string_view where,
+                        std::initializer_list<std::string_view> parts) {
+  CAPTURE(text);
+  TemporaryFolder folder;
+  check_refused([&] { load(folder, std::string(kArea) + text); }, where, parts);
+}
+
+}  // namespace
+
+TEST_CASE("every shipped workcell loads") {
+  int count = 0;
+  for (const fs::directory_entry& entry : fs::directory_iterator(kShipped)) {
+    if (entry.path().extension() != ".yaml") continue;
+    CAPTURE(entry.path());
+    CHECK_NOTHROW(load_workcell(entry.path()));
+    ++count;
+  }
+  CHECK(count >= 1);
+}
+
+TEST_CASE("the example uses every key") {
+  const Workcell cell = load_workcell(kShipped / "example.yaml");
+  CHECK(cell.work_area.max() == Eigen::Vector3d(0.3, 0.3, 0.4));
+  CHECK(cell.movable_intrinsics == Intrinsics{640, 480, 525, 525, 319.5, 239.5});
+  CHECK(cell.candidate_radii_m == std::vector{0.7, 0.9});
+  REQUIRE(cell.reach);
+  CHECK(cell.reach->base_m == Eigen::Vector3d(0, -0.6, 0));
+  CHECK(cell.reach->min_m == 0.3);
+  CHECK(cell.reach->max_m == 1.8);
+  REQUIRE(cell.static_structures.size() == 2);
+  CHECK(cell.static_structures[1].name == "post");
+  CHECK(cell.known_objects.empty());
+  CHECK(cell.voxel_size_m == 0.01);
+}
+
+TEST_CASE("a work area is enough for a workcell") {
+  TemporaryFolder folder;
+  const Workcell cell = load(folder, std::string(kArea));
+  CHECK(cell.work_area.min() == Eigen::Vector3d(-1, -2, 0));
+  CHECK(cell.work_area.max() == Eigen::Vector3d(1, 2, 0.5));
+  CHECK(cell.sensor_range == DepthRange{});
+  CHECK(!cell.movable_intrinsics);
+  CHECK(cell.movable_range == DepthRange{});
+  CHECK(cell.candidate_radii_m.empty());
+  CHECK(cell.candidates_per_half_sphere == 20);
+  CHECK(!cell.reach);
+  CHECK(!cell.voxel_size_m);
+  CHECK(cell.files == std::vector{folder / "cell.yaml"});
+}
+
+TEST_CASE("a workcell's ranges, candidates and reach are read") {
+  TemporaryFolder folder;
+  const Workcell cell =
+      load(folder, std::string(kArea) +
+                       "sensor: {depth_range_m: [0.4, 4]}\n"
+                       "movable_camera: {width: 320, height: 240, fx: 300, fy: 301,"
+                       " cx: 160, cy: 120, depth_range_m: [0.2, 2]}\n"
+                       "candidates: {count: 7}\n"
+                       "reach: {base_m: [1, 2, 3], max_m: 0.9}\n");
+  CHECK(cell.sensor_range == DepthRange{0.4, 4});
+  CHECK(cell.movable_intrinsics == Intrinsics{320, 240, 300, 301, 160, 120});
+  CHECK(cell.movable_range == DepthRange{0.2, 2});
+  CHECK(cell.candidates_per_half_sphere == 7);
+  CHECK(cell.reach->base_m == Eigen::Vector3d(1, 2, 3));
+  CHECK(cell.reach->min_m == 0);
+}
+
+TEST_CASE("boxes and meshes become objects at their poses") {
+  TemporaryFolder folder;
+  folder.write("meshes/arm.stl", kStl);
+  const Workcell cell =
+      load(folder, std::string(kArea) +
+                       "static_structures:\n"
+                       "  - {name: wall, box: {min_m: [0, 0, 0], max_m: [1, 2, 3]}}\n"
+                       "  - name: arm\n    mesh: meshes/arm.stl\n    unit_m: 0.001\n"
+                       "    pose: {rotation: {w: 0.70710678, x: 0, y: 0, z: 0.70710678},\n"
+                       "           translation_m: [9, 0, 0]}\n"
+                       "known_objects:\n"
+                       "  - {name: tin, mesh: meshes/arm.stl}\n");
+  REQUIRE(cell.static_structures.size() == 2);
+  CHECK(cell.static_structures[0].mesh->triangles().size() == 12);
+  CHECK(cell.static_structures[0].T_world_object.translation().norm() == 0);
+  const KnownObject& arm = cell.static_structures[1];
+  REQUIRE(arm.mesh->triangles().size() == 1);
+  const Eigen::Vector3d corner = arm.mesh->corner(0, 1).cast<double>();
+  CHECK((corner - Eigen::Vector3d(1, 0, 0)).norm() < 1e-6);
+  CHECK((arm.T_world_object * corner - Eigen::Vector3d(9, 1, 0)).norm() < 1e-6);
+  REQUIRE(cell.known_objects.size() == 1);
+  CHECK(cell.known_objects[0].mesh->corner(0, 1).x() == 1000);
+  CHECK(cell.files ==
+        std::vector{folder / "cell.yaml", folder / "meshes/arm.stl", folder / "meshes/arm.stl"});
+}
+
+TEST_CASE("a workcell that is missing or no YAML is refused") {
+  TemporaryFolder folder;
+  check_refused([&] { load_workcell(folder / "cell.yaml"); }, "cell.yaml", {"o such file"});
+  check_refused([&] { load(folder, "work_area: 1\n wrong: 2\n"); }, "cell.yaml:2:7",
+                {"no valid YAML"});
+}
+
+TEST_CASE("a workcell's keys are checked against the schema") {
+  TemporaryFolder folder;
+  check_refused([&] { load(folder, "voxel_size_m: 0.01\n"); }, "cell.yaml:1: work_area",
+                {"missing", "the box in which vantage looks"});
+  check_text_refused("voxel_size: 0.01\n", "cell.yaml:2: voxel_size",
+                     {"unknown key", "\"voxel_size_m\""});
+  check_text_refused("voxel_size_m: 0\n", "cell.yaml:2: voxel_size_m", {"found 0", "a number > 0"});
+  check_text_refused("movable_camera: {width: 640, height: 480, fx: -1, fy: 1, cx: 0, cy: 0}\n",
+                     "cell.yaml:2: movable_camera.fx", {"found -1", "a number > 0"});
+  check_text_refused("movable_camera: {width: 640, height: 480, fx: 1, fy: 1, cx: 0}\n",
+                     "cell.yaml:2: movable_camera.cy", {"missing", "principal point"});
+  check_text_refused("candidates: {radii_m: [0.5, -1]}\n", "cell.yaml:2: candidates.radii_m[1]",
+                     {"found -1", "a number > 0"});
+  check_text_refused("candidates: {count: many}\n", "cell.yaml:2: candidates.count",
+                     {"found \"many\"", "a whole number >= 1 and <= 100000"});
+  check_text_refused("sensor: {depth_range_m: [1]}\n", "cell.yaml:2: sensor.depth_range_m",
+                     {"found [1]", "2 numbers"});
+}
+
+TEST_CASE("boxes and ranges the wrong way round are refused") {
+  TemporaryFolder folder;
+  check_refused([&] { load(folder, "work_area: {min_m: [0, 0, 1], max_m: [1, 1, 0]}\n"); },
+                "cell.yaml:1: work_area", {"min < max"});
+  check_text_refused("sensor: {depth_range_m: [3, 0.1]}\n", "cell.yaml:2: sensor.depth_range_m",
+                     {"3 to 0.1"});
+  check_text_refused(
+      "movable_camera: {width: 640, height: 480, fx: 1, fy: 1, cx: 0, cy: 0,\n"
+      "  depth_range_m: [2, 2]}\n",
+      "cell.yaml:3: movable_camera.depth_range_m", {"2 to 2"});
+  check_text_refused("reach: {base_m: [0, 0, 0], min_m: 2, max_m: 1}\n", "cell.yaml:2: reach",
+                     {"min_m: 2", "max_m: 1"});
+}
+
+TEST_CASE("objects that are none are refused") {
+  const auto with = [](const std::string& object) {
+    return "known_objects:\n  - " + object + "\n";
+  };
+  const std::string box = "box: {min_m: [0, 0, 0], max_m: [1, 1, 1]}";
+  check_text_refused(with("{name: a}"), "cell.yaml:3: known_objects[0]",
+                     {"exactly one of the keys \"box\", \"mesh\""});
+  check_text_refused(with("{name: a, mesh: b.stl, " + box + "}"), "cell.yaml:3: known_objects[0]",
+                     {"exactly one of the keys"});
+  check_text_refused(with("{" + box + "}"), "cell.yaml:3: known_objects[0].name", {"missing"});
+  check_text_refused(with("{name: a, mesh: b.stl}"), "cell.yaml:3: known_objects[0].mesh",
+                     {"no file", "b.stl", "relative"});
+  check_text_refused(with("{name: a, unit_m: 1, " + box + "}"),
+                     "cell.yaml:3: known_objects[0].unit_m", {"only a mesh"});
+  check_text_refused(with("{name: a, box: {min_m: [0, 0, 0], max_m: [1, 0, 1]}}"),
+                     "cell.yaml:3: known_objects[0].box", {"min < max"});
+  check_text_refused(with("{name: a, " + box + ", pose: {rotation: {w: 1, x: 1, y: 0, z: 0}}}"),
+                     "cell.yaml:3: known_objects[0].pose.rotation", {"norm", "expected 1"});
+}
+
+TEST_CASE("a name may be there once only") {
+  const std::string box = "box: {min_m: [0, 0, 0], max_m: [1, 1, 1]}";
+  check_text_refused("static_structures:\n  - {name: a, " + box +
+                         "}\nknown_objects:\n  - {name: a, " + box + "}\n",
+                     "cell.yaml:5: known_objects[0].name",
+                     {"\"a\"", "cell.yaml:3: static_structures[0].name"});
+}
+
+TEST_CASE("a damaged mesh is refused with its own place") {
+  TemporaryFolder folder;
+  folder.write("a.stl", "solid t\nfacet normal 0 0 1\nouter loop\nvertex 0 0 nan\n");
+  check_refused(
+      [&] { load(folder, std::string(kArea) + "known_objects: [{name: a, mesh: a.stl}]\n"); }, "",
+      {""});
+}
+
+}  // namespace vantage::test

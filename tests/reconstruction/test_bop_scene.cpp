@@ -1,0 +1,271 @@
+#include "vantage/reconstruction/bop_scene.hpp"
+
+#include <doctest/doctest.h>
+
+#include <array>
+#include <cmath>
+
+#include "reconstruction/scene_folder.hpp"
+#include "support/caught.hpp"
+#include "vantage/reconstruction/color_image.hpp"
+
+namespace vantage::test {
+namespace {
+
+void check_entry_refused(const std::string& members, const std::string& key,
+                         std::initializer_list<std::string_view> parts) {
+  CAPTURE(members);
+  SceneFolder scene;
+  scene.entry(members).depth();
+  check_refused([&] { load_bop_scene(scene.path()); },
+                "scene_camera.json: \"7\"" + (key.empty() ? "" : ": " + key), parts);
+}
+
+void check_json_refused(std::string_view text, std::string_view where_end,
+                        std::initializer_list<std::string_view> parts) {
+  CAPTURE(text.substr(0, 100));
+  SceneFolder scene;
+  scene.json(text).depth();
+  check_refused([&] { load_bop_scene(scene.path()); }, where_end, parts);
+}
+
+}  // namespace
+
+TEST_CASE("a BOP scene becomes cameras with depth in metres") {
+  SceneFolder folder;
+  folder.good_entry().depth().color();
+  const BopScene scene = load_bop_scene(folder.path(), {0.2, 5});
+  REQUIRE(scene.images.size() == 1);
+  const BopImage& image = scene.images[0];
+  CHECK(image.id == 7);
+  CHECK(image.camera.intrinsics() == Intrinsics{8, 6, 50, 60, 4, 3});
+  CHECK(image.camera.range() == DepthRange{0.2, 5});
+  // The inverse of (R, t/1000): the centre is -Rᵀt, the optical axis is R's last row.
+  CHECK((image.camera.centre() - Eigen::Vector3d(0.1, 0.2, 2)).norm() < 1e-12);
+  CHECK((image.camera.T_world_cam().rotation().col(2) + Eigen::Vector3d::UnitZ()).norm() < 1e-12);
+  CHECK((image.camera.unproject(4, 3, 2) - Eigen::Vector3d(0.1, 0.2, 0)).norm() < 1e-12);
+  REQUIRE(image.depth);
+  CHECK(image.depth->at(5, 2) == 1.0f);  // 2000 counts of 0.5 mm
+  CHECK(image.color == folder.path() / "rgb/000007.png");
+  CHECK(scene.folder == folder.path());
+  CHECK(scene.files == std::vector{folder.path() / "scene_camera.json",
+                                   folder.path() / "depth/000007.png",
+                                   folder.path() / "rgb/000007.png"});
+}
+
+TEST_CASE("a BOP scene without depth has cameras of its colour images' size") {
+  SceneFolder folder;
+  folder.entry(kCamK + ", " + kPose).color(10, 7);
+  const BopScene scene = load_bop_scene(folder.path());
+  REQUIRE(scene.images.size() == 1);
+  CHECK(scene.images[0].depth == nullptr);
+  CHECK(scene.images[0].camera.intrinsics() == Intrinsics{10, 7, 50, 60, 4, 3});
+}
+
+TEST_CASE("a BOP scene without images takes the size from width and height") {
+  SceneFolder folder;
+  folder.entry(kCamK + ", " + kPose + R"(, "width": 12, "height": 9)");
+  const BopScene scene = load_bop_scene(folder.path());
+  CHECK(scene.images.at(0).camera.intrinsics() == Intrinsics{12, 9, 50, 60, 4, 3});
+  CHECK(scene.images.at(0).color.empty());
+}
+
+TEST_CASE("a BOP scene's images are ordered by number, not by text, and can be picked") {
+  SceneFolder folder;
+  const std::string entry = "{" + kGoodEntry + "}";
+  folder.json(R"({"100": )" + entry + R"(, "20": )" + entry + R"(, "3": )" + entry + "}");
+  folder.depth("000003.png").depth("000020.png").depth("000100.png");
+  const auto ids = [](const BopScene& scene) {
+    std::vector<int> all;
+    for (const BopImage& image : scene.images) all.push_back(image.id);
+    return all;
+  };
+  CHECK(ids(load_bop_scene(folder.path())) == std::vector{3, 20, 100});
+  const BopScene two = load_bop_scene(folder.path(), {}, std::array{100, 3});
+  CHECK(ids(two) == std::vector{3, 100});
+  CHECK(two.files.size() == 3);
+  check_refused(
+      [&] {
+        load_bop_scene(folder.path(), {}, std::array{3, 21});
+      },
+      "scene_camera.json", {"image 21", "3 images", "from 3 to 100"});
+}
+
+TEST_CASE("a BOP scene that is missing is refused") {
+  SceneFolder folder;
+  check_refused([&] { load_bop_scene(folder.path() / "nowhere"); }, "nowhere",
+                {"no such folder", "scene_camera.json"});
+  check_refused([&] { load_bop_scene(folder.path()); }, "scene_camera.json", {"missing"});
+  folder.good_entry();
+  folder.write("depth/readme.txt", "no depth here");
+  check_refused([&] { load_bop_scene(folder.path()); }, "depth/000007.png",
+                {"missing", "\"7\"", "depth folder"});
+}
+
+TEST_CASE("a scene_camera.json that is damaged is refused") {
+  check_json_refused("", "scene_camera.json", {"empty"});
+  check_json_refused("{}", "scene_camera.json", {"found {}", "one entry per image"});
+  check_json_refused("[1, 2]", "scene_camera.json", {"found [1,2]"});
+  check_json_refused("{\n \"7\": {\"cam_K\": [1,", "scene_camera.json:2:20", {"truncated"});
+  check_json_refused("{\"7\": {\"depth_scale\": NaN}}", "scene_camera.json:1:23",
+                     {"no valid JSON"});
+  check_json_refused("{\"7\": {\"depth_scale\": 1e999}}", "scene_camera.json", {"1e999"});
+  check_json_refused("{\"7\": 3}", "scene_camera.json: \"7\"", {"found 3", "cam_K"});
+  check_json_refused("{\"seven\": {}}", "scene_camera.json: \"seven\"", {"no image id"});
+  check_json_refused("{\"-7\": {}}", "scene_camera.json: \"-7\"", {"no image id"});
+  check_json_refused("{\"99999999999\": {}}", "scene_camera.json: \"99999999999\"",
+                     {"no image id"});
+}
+
+TEST_CASE("an image that is there twice is refused") {
+  check_json_refused("{\"7\": {}, \"7\": {}}", "scene_camera.json: \"7\"", {"twice", "remove one"});
+  check_json_refused("{\"7\": {}, \"007\": {}}", "scene_camera.json: \"7\"", {"image 7", "twice"});
+  // The same key in two objects is fine; this one gets as far as the missing pose.
+  const std::string entry = "{" + kCamK + ", " + kScale + "}";
+  check_json_refused("{\"7\": " + entry + ", \"8\": " + entry + "}", "\"7\": cam_R_w2c",
+                     {"missing"});
+}
+
+TEST_CASE("a million nested arrays are refused before they overflow the stack") {
+  check_json_refused(std::string(1'000'000, '['), "scene_camera.json:1:65", {"deeper than 64"});
+  check_json_refused("{\"a\":\n" + std::string(64, '['), "scene_camera.json:2:64",
+                     {"deeper than 64"});
+  // Brackets in a string are text.
+  check_json_refused("{\"\\\"" + std::string(100, '[') + "\": 1}", "\"", {"no image id"});
+}
+
+TEST_CASE("an entry without what it needs is refused") {
+  const std::string good = kCamK + ", " + kScale;
+  check_entry_refused(kScale + ", " + kPose, "cam_K", {"missing"});
+  check_entry_refused(kCamK + ", " + kPose, "depth_scale", {"missing"});
+  check_entry_refused(good, "cam_R_w2c", {"markers", "not in this version", "pose"});
+  check_entry_refused(good + R"(, "cam_R_w2c": [1, 0, 0, 0, 1, 0, 0, 0, 1])", "cam_t_w2c",
+                      {"missing"});
+}
+
+TEST_CASE("an entry of the wrong type or length is refused") {
+  const auto with = [](const std::string& k, const std::string& scale, const std::string& pose) {
+    return k + ", " + scale + ", " + pose;
+  };
+  check_entry_refused(with(R"("cam_K": [1, 2, 3])", kScale, kPose), "cam_K",
+                      {"3 values, [1,2,3]", "9 numbers"});
+  check_entry_refused(with(R"("cam_K": "K")", kScale, kPose), "cam_K",
+                      {"found \"K\"", "9 numbers"});
+  check_entry_refused(with(R"("cam_K": [50, 0, 4, 0, "60", 3, 0, 0, 1])", kScale, kPose), "cam_K",
+                      {"\"60\"", "9 numbers"});
+  check_entry_refused(with(R"("cam_K": [50, 0, 4, 0, null, 3, 0, 0, 1])", kScale, kPose), "cam_K",
+                      {"null", "9 numbers"});
+  check_entry_refused(with(kCamK, R"("depth_scale": "1")", kPose), "depth_scale",
+                      {"found \"1\"", "number > 0"});
+  check_entry_refused(with(kCamK, R"("depth_scale": 0)", kPose), "depth_scale", {"found 0"});
+  check_entry_refused(with(kCamK, R"("depth_scale": -1)", kPose), "depth_scale", {"found -1"});
+  check_entry_refused(with(kCamK, kScale, R"("cam_R_w2c": [1, 0, 0], "cam_t_w2c": [0, 0, 0])"),
+                      "cam_R_w2c", {"3 values", "9 numbers"});
+  check_entry_refused(
+      with(kCamK, kScale, R"("cam_R_w2c": [1, 0, 0, 0, 1, 0, 0, 0, 1], "cam_t_w2c": [0, 0])"),
+      "cam_t_w2c", {"2 values", "3 numbers"});
+}
+
+TEST_CASE("intrinsics that are none are refused") {
+  const auto with_k = [](const std::string& k) {
+    return "\"cam_K\": [" + k + "], " + kScale + ", " + kPose;
+  };
+  check_entry_refused(with_k("0, 0, 4, 0, 60, 3, 0, 0, 1"), "cam_K", {"fx", "0"});
+  check_entry_refused(with_k("50, 0, 4, 0, -60, 3, 0, 0, 1"), "cam_K", {"fy", "-60"});
+  check_entry_refused(with_k("50, 0.5, 4, 0, 60, 3, 0, 0, 1"), "cam_K", {"0.5", "without skew"});
+  // Column by column instead of row by row.
+  check_entry_refused(with_k("50, 0, 0, 0, 60, 0, 4, 3, 1"), "cam_K", {"row by row"});
+}
+
+TEST_CASE("a matrix that is no rotation is refused") {
+  const auto with_r = [](const std::string& r) {
+    return kCamK + ", " + kScale + ", \"cam_R_w2c\": [" + r + "], \"cam_t_w2c\": [0, 0, 0]";
+  };
+  check_entry_refused(with_r("1, 0, 0, 0, 2, 0, 0, 0, 1"), "cam_R_w2c", {"no rotation"});
+  check_entry_refused(with_r("1, 0, 0, 0, 1, 0, 0, 0, -1"), "cam_R_w2c", {"reflection"});
+}
+
+TEST_CASE("depth and intrinsics of different size are refused") {
+  SceneFolder folder;
+  folder.entry(R"("cam_K": [525, 0, 319.5, 0, 525, 239.5, 0, 0, 1], )" + kScale + ", " + kPose);
+  folder.depth();
+  check_refused([&] { load_bop_scene(folder.path()); }, "\"7\": cam_K",
+                {"(319.5, 239.5)", "8 x 6", "depth and intrinsics of different size"});
+}
+
+TEST_CASE("depth, colour and entry have to be of one size") {
+  SceneFolder folder;
+  folder.good_entry().depth().color(8, 5);
+  check_refused([&] { load_bop_scene(folder.path()); }, "rgb/000007.png",
+                {"8 x 5", "8 x 6", "depth/000007.png"});
+
+  check_entry_refused(kGoodEntry + R"(, "width": 9, "height": 6)", "width, height",
+                      {"9 x 6", "8 x 6"});
+  check_entry_refused(kGoodEntry + R"(, "width": 8)", "height", {"missing"});
+  check_entry_refused(kGoodEntry + R"(, "width": 8.5, "height": 6)", "width",
+                      {"8.5", "whole number"});
+  check_entry_refused(kGoodEntry + R"(, "width": 8, "height": 1e9)", "height", {"16384"});
+
+  SceneFolder nothing;
+  nothing.good_entry();
+  check_refused([&] { load_bop_scene(nothing.path()); }, "scene_camera.json: \"7\"",
+                {"size is not known", "000007.png", "width and height"});
+}
+
+TEST_CASE("a depth image that is damaged or of 8 bits is refused") {
+  SceneFolder folder;
+  folder.good_entry().depth();
+  const std::string whole = read_text(folder.path() / "depth/000007.png");
+  folder.write("depth/000007.png", whole.substr(0, whole.size() / 2));
+  check_refused([&] { load_bop_scene(folder.path()); }, "depth/000007.png", {"truncated"});
+  write_png(folder.path() / "depth/000007.png", ColorImage(8, 6, 1));
+  check_refused([&] { load_bop_scene(folder.path()); }, "depth/000007.png", {"8 bits", "16"});
+}
+
+TEST_CASE("a depth range that is none is refused") {
+  SceneFolder folder;
+  folder.good_entry().depth();
+  check_refused([&] { load_bop_scene(folder.path(), {3, 0.1}); }, "depth range", {"3", "0.1"});
+}
+
+TEST_CASE("the recordings look down at the workspace") {
+  for (const char* name : {"osd_learn0", "osd_learn12", "osd_learn33", "kitchen"}) {
+    CAPTURE(std::string(name));
+    const auto folder = recording(name);
+    if (!folder) continue;
+    const BopScene scene = load_bop_scene(*folder);
+    CHECK(scene.images.size() == (std::string_view(name) == "kitchen" ? 50 : 1));
+    CHECK(scene.files.size() == 1 + 2 * scene.images.size());
+    int known = 0, on_table = 0;
+    for (const BopImage& image : scene.images) {
+      CAPTURE(image.id);
+      CHECK(image.camera.centre().z() > 0);
+      CHECK(image.camera.T_world_cam().rotation()(2, 2) < 0);  // the optical axis points down
+      REQUIRE(image.depth);
+      CHECK(image.depth->width() == 640);
+      CHECK(image.depth->height() == 480);
+      for (int v = 0; v < 480; v += 8) {
+        for (int u = 0; u < 640; u += 8) {
+          const float depth = image.depth->at(u, v);
+          if (!std::isfinite(depth)) continue;
+          ++known;
+          if (std::abs(image.camera.unproject(u, v, depth).z()) < 0.03) ++on_table;
+        }
+      }
+    }
+    // The table is the plane z = 0: a wrong pose or scale would not put measured points there.
+    CHECK(known > 1000 * int(scene.images.size()));
+    CHECK(on_table > known / 10);
+    const ColorImage color = read_color(scene.images[0].color);
+    CHECK(color.width == 640);
+    CHECK(color.height == 480);
+  }
+}
+
+TEST_CASE("photographs without a scene_camera.json are no BOP scene") {
+  const auto folder = recording("charuco");
+  if (!folder) return;
+  check_refused([&] { load_bop_scene(*folder); }, "charuco/scene_camera.json", {"missing"});
+}
+
+}  // namespace vantage::test

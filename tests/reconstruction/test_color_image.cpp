@@ -1,0 +1,110 @@
+#include "vantage/reconstruction/color_image.hpp"
+
+#include <doctest/doctest.h>
+
+#include <string>
+
+#include "support/caught.hpp"
+#include "support/test_data.hpp"
+#include "vantage/raycore/image_io.hpp"
+
+namespace vantage::test {
+namespace {
+
+/// 16 x 8 pixels, the left half red, the right half blue; its EXIF data asks for a turn by 90°.
+std::string jpeg() {
+  constexpr std::string_view kHex =
+      "ffd8ffe100224578696600004d4d002a00000008000101120003000000010006000000000000ffdb0043001b12"
+      "141714111b1716171e1c1b2028422b28252528513a3d3042605565645f555d5b6a7899816a7190735b5d85b586"
+      "909ea3abadab6780bcc9baa6c799a8aba4ffdb0043011c1e1e2823284e2b2b4ea46e5d6ea4a4a4a4a4a4a4a4a4"
+      "a4a4a4a4a4a4a4a4a4a4a4a4a4a4a4a4a4a4a4a4a4a4a4a4a4a4a4a4a4a4a4a4a4a4a4a4a4a4a4a4a4ffc00011"
+      "080008001003012200021101031101ffc4001500010100000000000000000000000000000004ffc40014100100"
+      "000000000000000000000000000000ffc40014010100000000000000000000000000000004ffc4001811000203"
+      "0000000000000000000000000000054281c1ffda000c03010002110311003f00810818aa75a3d946f0ffd9";
+  std::string bytes;
+  for (std::size_t i = 0; i < kHex.size(); i += 2) {
+    bytes += char(std::stoi(std::string(kHex.substr(i, 2)), nullptr, 16));
+  }
+  return bytes;
+}
+
+void check_bytes_refused(std::string_view bytes, std::initializer_list<std::string_view> parts) {
+  TemporaryFolder folder;
+  const auto file = folder.write("image", bytes);
+  check_refused([&] { read_color(file); }, "image", parts);
+}
+
+std::string png(int width, int height) {
+  TemporaryFolder folder;
+  write_png(folder / "image.png", ColorImage(width, height, 200));
+  return read_text(folder / "image.png");
+}
+
+}  // namespace
+
+TEST_CASE("a PNG is read as it was written, red first") {
+  TemporaryFolder folder;
+  ColorImage image(5, 3);
+  for (std::size_t i = 0; i < image.samples.size(); ++i) image.samples[i] = std::uint8_t(5 * i);
+  write_png(folder / "image.png", image);
+  CHECK(read_color(folder / "image.png") == image);
+}
+
+TEST_CASE("a JPEG is read as it is stored: its EXIF orientation does not turn it") {
+  TemporaryFolder folder;
+  const ColorImage image = read_color(folder.write("image.jpg", jpeg()));
+  REQUIRE(image.width == 16);
+  REQUIRE(image.height == 8);
+  CHECK(image.pixel(2, 4)[0] > 200);
+  CHECK(image.pixel(2, 4)[2] < 50);
+  CHECK(image.pixel(13, 4)[0] < 50);
+  CHECK(image.pixel(13, 4)[2] > 200);
+}
+
+TEST_CASE("a colour image that is missing or no image is refused") {
+  TemporaryFolder folder;
+  check_refused([&] { read_color(folder / "nowhere.png"); }, "nowhere.png", {"o such file"});
+  check_bytes_refused("", {"neither PNG nor JPEG"});
+  check_bytes_refused("GIF89a", {"neither PNG nor JPEG"});
+}
+
+TEST_CASE("a colour image that ends too early is refused, wherever it is cut") {
+  for (const std::string& whole : {png(6, 4), jpeg()}) {
+    for (std::size_t size = 8; size < whole.size(); ++size) {
+      CAPTURE(size);
+      check_bytes_refused(whole.substr(0, size), {"truncated", std::to_string(size)});
+    }
+  }
+}
+
+TEST_CASE("a colour image that claims too much is refused before it is decoded") {
+  std::string image = png(6, 4);
+  image.replace(16, 8, std::string("\x00\x01\x00\x00\x00\x01\x00\x00", 8));
+  check_bytes_refused(image, {"65536 x 65536", "16384"});
+  image.replace(16, 8, std::string(8, '\0'));
+  check_bytes_refused(image, {"0 x 0"});
+
+  std::string photograph = jpeg();
+  const std::size_t frame = photograph.find("\xFF\xC0");
+  photograph.replace(frame + 5, 4, "\xFF\xFF\xFF\xFF");
+  check_bytes_refused(photograph, {"65535 x 65535", "16384"});
+}
+
+TEST_CASE("a colour image of 16 bits is refused") {
+  TemporaryFolder folder;
+  write_png(folder / "depth.png", CountImage(6, 4, 1000));
+  check_refused([&] { read_color(folder / "depth.png"); }, "depth.png", {"16 bits", "8 bits"});
+}
+
+TEST_CASE("a colour image whose data are damaged is refused") {
+  std::string image = png(40, 30);
+  const std::size_t data = image.find("IDAT");
+  for (std::size_t i = data + 4; i < data + 20; ++i) image[i] = '\x55';
+  check_bytes_refused(image, {"corrupt"});
+
+  std::string photograph = jpeg();
+  photograph.erase(photograph.find("\xFF\xC0"), 2 + 17);
+  check_bytes_refused(photograph, {"JPEG without a frame header"});
+}
+
+}  // namespace vantage::test
