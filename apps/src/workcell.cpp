@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
 #include <string>
 
@@ -123,7 +124,7 @@ class ObjectReader {
     }
     const double unit_m = value.has("unit_m") ? value["unit_m"].as<double>() : 1.0;
     auto mesh = std::make_shared<const TriangleMesh>(read_mesh(file, unit_m));
-    files_.push_back(file);
+    if (std::find(files_.begin(), files_.end(), file) == files_.end()) files_.push_back(file);
     return mesh;
   }
 

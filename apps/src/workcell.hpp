@@ -30,7 +30,7 @@ struct Workcell {
   std::vector<KnownObject> static_structures = {};  ///< may lie outside the work area
   std::vector<KnownObject> known_objects = {};
   std::optional<double> voxel_size_m = {};
-  std::vector<std::filesystem::path> files = {};  ///< every file that was read
+  std::vector<std::filesystem::path> files = {};  ///< every file that was read, once
 };
 
 /// Reads a workcell and the meshes that it names, relative to its folder.
