@@ -45,7 +45,7 @@ std::string damaged(std::string bytes, std::mt19937& random) {
   return bytes;
 }
 
-void read_damaged(std::string_view name, const std::string& whole, std::uint32_t seed) {
+void expect_mesh_or_error(std::string_view name, const std::string& whole, std::uint32_t seed) {
   const test::TemporaryFolder folder;
   std::mt19937 random(seed);
   int refused = 0;
@@ -73,20 +73,20 @@ void read_damaged(std::string_view name, const std::string& whole, std::uint32_t
 }  // namespace
 
 TEST_CASE("damaged binary STL files") {
-  read_damaged("a.stl", test::stl_binary(), 1);
+  expect_mesh_or_error("a.stl", test::stl_binary(), 1);
 }
 TEST_CASE("damaged ASCII STL files") {
-  read_damaged("a.stl", test::stl_ascii(), 2);
+  expect_mesh_or_error("a.stl", test::stl_ascii(), 2);
 }
 TEST_CASE("damaged ASCII PLY files") {
-  read_damaged("a.ply", test::ply("ascii"), 3);
+  expect_mesh_or_error("a.ply", test::ply("ascii"), 3);
 }
 TEST_CASE("damaged little-endian PLY files") {
-  read_damaged("a.ply", test::ply("binary_little_endian"), 4);
+  expect_mesh_or_error("a.ply", test::ply("binary_little_endian"), 4);
 }
 TEST_CASE("damaged big-endian PLY files") {
-  read_damaged("a.ply", test::ply("binary_big_endian"), 5);
+  expect_mesh_or_error("a.ply", test::ply("binary_big_endian"), 5);
 }
 TEST_CASE("damaged OBJ files") {
-  read_damaged("a.obj", test::obj_text(), 6);
+  expect_mesh_or_error("a.obj", test::obj_text(), 6);
 }
