@@ -15,15 +15,20 @@ WorldModel demo_world() {
   WorldModel world;
   const auto cube = std::make_shared<const TriangleMesh>(TriangleMesh::from_box(
       Box(Eigen::Vector3d::Constant(-kCube / 2), Eigen::Vector3d::Constant(kCube / 2))));
-  // Five side by side, three on top: a wall along x with a step at each end.
-  for (int i = 0; i < 8; ++i) {
-    const bool upper = i >= 5;
-    const double x = kCube * (upper ? i - 6 : i - 2), z = kCube * (upper ? 1.5 : 0.5);
-    world.objects.push_back(
-        {"cube " + std::to_string(i), cube, Pose::from_translation({x, 0.02, z})});
+  const auto add_cube = [&](double x, double y, int row) {
+    world.objects.push_back({"cube " + std::to_string(world.objects.size()), cube,
+                             Pose::from_translation({x, y, kCube * (row + 0.5)})});
+  };
+  // Five, four and three cubes on each other, each row 2 cm further back, and a low second wall
+  // behind: no single view reveals all that lies under the overhang and between the two.
+  for (int row = 0; row < 3; ++row) {
+    for (int i = 0; i < 5 - row; ++i) {
+      add_cube(kCube * (i - 0.5 * (4 - row)), 0.02 * row, row);
+    }
   }
+  for (int i = 0; i < 3; ++i) add_cube(kCube * (i - 1.5), 0.1, 0);
   world.cameras.push_back(
-      {"side", PinholeCamera(kCamera, Pose::looking_at({0.1, -0.6, 0.28}, {0, 0, 0.04}), kRange),
+      {"side", PinholeCamera(kCamera, Pose::looking_at({0.1, -0.65, 0.26}, {0, 0, 0.07}), kRange),
        nullptr});
   return world;
 }

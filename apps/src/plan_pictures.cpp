@@ -24,6 +24,9 @@ const Eigen::Vector3f kSuggestedCamera(0.90f, 0.08f, 0.06f);
 const Eigen::Vector3f kWorkArea(0.35f, 0.37f, 0.40f);
 const Eigen::Vector3f kFloor(0.90f, 0.90f, 0.91f);
 
+constexpr const char* kRevealedName = "revealed";
+/// How much of the light the revealed voxels keep back: one sees what stands inside them.
+constexpr double kRevealedOpacity = 0.4;
 constexpr int kOverviewWidth = 1280, kOverviewHeight = 800;
 
 /// Sizes of what is drawn follow the work area.
@@ -49,7 +52,7 @@ TriangleMesh shape_of(const PinholeCamera& camera, const Plan& plan) {
 std::vector<ColoredMesh> voxel_meshes(const StateGrid& grid) {
   return {{"occupied", grid.faces(VoxelState::occupied), kOccupied},
           {"shadow", grid.faces(VoxelState::shadow), kShadow},
-          {"revealed", grid.faces(VoxelState::revealed), kRevealed}};
+          {kRevealedName, grid.faces(VoxelState::revealed), kRevealed, float(kRevealedOpacity)}};
 }
 
 std::vector<ColoredMesh> camera_meshes(const Plan& plan, const WorldModel& world) {
@@ -62,6 +65,18 @@ std::vector<ColoredMesh> camera_meshes(const Plan& plan, const WorldModel& world
     meshes.push_back({"suggested camera", shape_of(*camera, plan), kSuggestedCamera});
   }
   return meshes;
+}
+
+constexpr int kSamples = 64;
+
+/// The mean of two pictures of one size, `share` of it from the first.
+ColorImage blended(const ColorImage& a, const ColorImage& b, double share) {
+  ColorImage result = a;
+  for (std::size_t i = 0; i < result.samples.size(); ++i) {
+    result.samples[i] =
+        std::uint8_t(std::lround(share * a.samples[i] + (1 - share) * b.samples[i]));
+  }
+  return result;
 }
 
 /// A scene to draw, with its objects' looks.
@@ -77,12 +92,14 @@ class Stage {
       material.line_width_m = 0.1f * material.line_spacing_m;
       material.line_shade = 0.55f;
       material.line_origin = geometry.origin().cast<float>();
-      add(part.mesh, material);
+      (part.name == kRevealedName ? veil_ : props_).push_back({part.mesh, material});
     }
   }
 
   void add_cameras(const WorldModel& world) {
-    for (const ColoredMesh& part : camera_meshes(plan_, world)) add(part.mesh, {part.color});
+    for (const ColoredMesh& part : camera_meshes(plan_, world)) {
+      props_.push_back({part.mesh, {part.color}});
+    }
   }
 
   void add_floor() {
@@ -96,34 +113,50 @@ class Stage {
     material.fade_centre = Eigen::Vector3d(centre.x(), centre.y(), top).cast<float>();
     material.fade_from_m = float(2 * scale);
     material.fade_to_m = float(7 * scale);
-    add(TriangleMesh::from_box(Box(Eigen::Vector3d(centre.x() - side, centre.y() - side, top - 0.1),
-                                   Eigen::Vector3d(centre.x() + side, centre.y() + side, top))),
-        material);
+    const Box slab(Eigen::Vector3d(centre.x() - side, centre.y() - side, top - 0.1),
+                   Eigen::Vector3d(centre.x() + side, centre.y() + side, top));
+    props_.push_back({TriangleMesh::from_box(slab), material});
   }
 
-  void draw(const std::filesystem::path& path, const PinholeCamera& camera, const StopToken& stop) {
+  /// Draws everything, and once more without the revealed voxels, and lays one over the other.
+  void draw(const std::filesystem::path& path, const PinholeCamera& camera,
+            const StopToken& stop) const {
+    std::vector<Prop> all = props_;
+    all.insert(all.end(), veil_.begin(), veil_.end());
+    const auto with_veil = picture(all, camera, kRevealedOpacity, stop);
+    const auto without = picture(props_, camera, 1 - kRevealedOpacity, stop);
+    if (with_veil && without) write_png(path, blended(*with_veil, *without, kRevealedOpacity));
+  }
+
+ private:
+  struct Prop {
+    TriangleMesh mesh;
+    Material material;
+  };
+
+  /// `share` of the samples is enough for a picture that is `share` of the result.
+  std::optional<ColorImage> picture(const std::vector<Prop>& props, const PinholeCamera& camera,
+                                    double share, const StopToken& stop) const {
     PictureOptions options;
+    options.samples_per_pixel = int(std::lround(kSamples * share));
     options.sky_reach_m = float(1.2 * scale_of(plan_));
     // From above, over the viewer's left shoulder: what is seen is lit, and shadows fall aside.
     const Eigen::Matrix3d& R = camera.T_world_cam().rotation();
     const Eigen::Vector3d back =
         (-R.col(2) - 0.9 * R.col(0)).cwiseProduct(Eigen::Vector3d(1, 1, 0));
     options.to_sun = (back.normalized() + Eigen::Vector3d(0, 0, 1.25)).cast<float>();
-    const std::shared_ptr<const Scene> scene = builder_.build();
-    if (const auto image = render_picture(*scene, materials_, camera, options, stop)) {
-      write_png(path, *image);
+    SceneBuilder builder;
+    std::vector<Material> materials;
+    for (const Prop& prop : props) {
+      builder.add_mesh(prop.mesh);
+      materials.push_back(prop.material);
     }
-  }
-
- private:
-  void add(const TriangleMesh& mesh, const Material& material) {
-    builder_.add_mesh(mesh);
-    materials_.push_back(material);
+    return render_picture(*builder.build(), materials, camera, options, stop);
   }
 
   const Plan& plan_;
-  SceneBuilder builder_;
-  std::vector<Material> materials_;
+  std::vector<Prop> props_;
+  std::vector<Prop> veil_;  ///< what is drawn half transparent
 };
 
 /// Everything that the overview has to show.
@@ -173,7 +206,7 @@ PinholeCamera overview_camera(const Plan& plan, const WorldModel& world) {
   Eigen::Vector3d low = points.front(), high = points.front();
   for (const Eigen::Vector3d& p : points) low = low.cwiseMin(p), high = high.cwiseMax(p);
   const Eigen::Vector3d centre = 0.5 * (low + high);
-  const double azimuth = overview_azimuth(plan, world), elevation = 0.55;
+  const double azimuth = overview_azimuth(plan, world), elevation = 0.48;
   const Eigen::Vector3d direction(std::cos(elevation) * std::cos(azimuth),
                                   std::cos(elevation) * std::sin(azimuth), std::sin(elevation));
   const Pose pose = Pose::looking_at(centre + 1.5 * (high - low).norm() * direction, centre);

@@ -63,7 +63,8 @@ TriangleMesh camera_shape(const PinholeCamera& camera, double body_width_m, doub
   const Eigen::Vector3d half = body_width_m * Eigen::Vector3d(0.5, 0.17, 0.17);
   const Box body(Eigen::Vector3d(-half.x(), -half.y(), -2 * half.z()),
                  Eigen::Vector3d(half.x(), half.y(), 0));
-  std::vector<TriangleMesh> parts{TriangleMesh::from_box(body).transformed(camera.T_world_cam())};
+  std::vector<TriangleMesh> parts;
+  parts.push_back(TriangleMesh::from_box(body).transformed(camera.T_world_cam()));
   const std::vector<Eigen::Vector3d> corners = frustum_corners(camera, frustum_m);
   for (std::size_t i = 0; i < corners.size(); ++i) {
     parts.push_back(rod(camera.centre(), corners[i], rod_radius_m));

@@ -5,18 +5,12 @@
 #include <optional>
 #include <vector>
 
+#include "vantage/planner/view_candidates.hpp"
 #include "vantage/raycore/box.hpp"
 #include "vantage/raycore/camera.hpp"
 #include "vantage/raycore/world_model.hpp"
 
 namespace vantage {
-
-/// Where a robot can bring the camera's centre: between two spheres around its base. Metres.
-struct Reach {
-  Eigen::Vector3d base_m = Eigen::Vector3d::Zero();
-  double min_m = 0;
-  double max_m = 0;
-};
 
 /// What a workcell file says; assets/schema/workcell.schema.json describes the keys.
 struct Workcell {

@@ -14,8 +14,8 @@
 namespace vantage {
 namespace {
 
-constexpr float kSunShare =
-    0.62f;  // of the light on a surface that faces the sun; the sky's is 1 -
+// The light on a surface that faces the sun; the last part reaches the deepest corner.
+constexpr float kSunShare = 0.60f, kSkyShare = 0.30f, kFillShare = 0.10f;
 constexpr float kFarAway = 100.0f;  // metres; nothing that matters is farther
 
 float to_linear(float srgb) {
@@ -168,7 +168,7 @@ class Painter {
     for (std::size_t i = 0; i < surface.pixel.size(); ++i) {
       const float facing = std::max(0.0f, surface.normal[i].dot(sample.to_sun));
       const float share =
-          (no_sky[i] ? 0.0f : 1 - kSunShare) + (no_sun[i] ? 0.0f : kSunShare * facing);
+          kFillShare + (no_sky[i] ? 0.0f : kSkyShare) + (no_sun[i] ? 0.0f : kSunShare * facing);
       const Eigen::Vector3f reflected = 1.12f * share * surface.color[i];
       light[surface.pixel[i]] +=
           (1 - surface.faded[i]) * reflected + surface.faded[i] * background_;

@@ -7,7 +7,9 @@
 namespace vantage::test {
 namespace {
 
-bool near(double a, double b, double tolerance) { return std::abs(a - b) < tolerance; }
+bool near(double a, double b, double tolerance) {
+  return std::abs(a - b) < tolerance;
+}
 
 /// Van Oosterom and Strackee's formula, signed.
 double solid_angle(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c) {

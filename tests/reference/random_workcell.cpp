@@ -27,7 +27,9 @@ std::shared_ptr<const DepthImage> with_holes(DepthImage depth, Random& random) {
 
 }  // namespace
 
-Box random_workcell_area() { return Box({-0.12, -0.12, 0}, {0.12, 0.12, 0.2}); }
+Box random_workcell_area() {
+  return Box({-0.12, -0.12, 0}, {0.12, 0.12, 0.2});
+}
 
 WorldModel random_workcell(std::uint32_t seed) {
   Random random(seed);
@@ -61,9 +63,8 @@ WorldModel random_workcell(std::uint32_t seed) {
         {61, 47, random.uniform(50, 120), random.uniform(50, 120), 30.2, 23.7},
         Pose::looking_at(target + random.uniform(0.3, 0.6) * direction, target), {0.1, 1.5});
     const bool measures = random.below(2) == 0;
-    world.cameras.push_back(
-        {std::to_string(i), camera,
-         measures ? with_holes(scene->render_depth(camera), random) : nullptr});
+    world.cameras.push_back({std::to_string(i), camera,
+                             measures ? with_holes(scene->render_depth(camera), random) : nullptr});
   }
   return world;
 }

@@ -7,9 +7,9 @@
 
 namespace vantage::test {
 
-/// One to four turned boxes and sometimes a sphere in a work area of 24 cm, which one to three small
-/// cameras look at. Every other camera measures depth: of the known objects and of a foreign box,
-/// with holes.
+/// One to four turned boxes and sometimes a sphere in a work area of 24 cm, which one to three
+/// small cameras look at. Every other camera measures depth: of the known objects and of a foreign
+/// box, with holes.
 WorldModel random_workcell(std::uint32_t seed);
 
 /// The work area of random workcells.
