@@ -81,7 +81,7 @@ TEST_CASE(
   WorldModel world;
   auto depth = std::make_shared<DepthImage>(64, 48);  // a wall at y = 0: 0.5 m away
   for (int v = 0; v < 48; ++v)
-    for (int u = 0; u < 48; ++u) depth->set(u, v, 0.5f);  // unknown on the right
+    for (int u = 0; u < 40; ++u) depth->set(u, v, 0.5f);  // unknown on the right
   world.cameras.push_back({"front", kCamera, depth});
   const auto grid = classify(world, small_grid());
   CHECK(grid->at({10, 5, 10}) == VoxelState::free);

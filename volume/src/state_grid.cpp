@@ -1,7 +1,7 @@
 #include "vantage/volume/state_grid.hpp"
 
 #include <fmt/format.h>
-#include <openvdb/openvdb.h>
+#include "openvdb.hpp"
 
 #include "state_grid_impl.hpp"
 #include "vantage/raycore/error.hpp"

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <openvdb/openvdb.h>
+#include "openvdb.hpp"
 
 #include <array>
 #include <cstdint>

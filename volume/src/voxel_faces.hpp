@@ -1,6 +1,6 @@
 #pragma once
 
-#include <openvdb/openvdb.h>
+#include "openvdb.hpp"
 
 #include "vantage/raycore/triangle_mesh.hpp"
 #include "vantage/volume/grid_geometry.hpp"
