@@ -52,13 +52,16 @@ std::string child(const std::string& pointer, std::size_t index) {
 }
 
 std::string shown(const json& value) {
-  constexpr std::size_t kLongest = 60;
+  std::size_t longest = 60;
   if (value.is_null()) return "nothing (null)";
   if (value.is_number_float() && !std::isfinite(value.get<double>())) {
     return fmt::format("{}", value.get<double>());  // nlohmann would write null
   }
   std::string text = value.dump(-1, ' ', false, json::error_handler_t::replace);
-  if (text.size() > kLongest) text = text.substr(0, kLongest) + "…";
+  if (text.size() > longest) {
+    while ((text[longest] & 0xC0) == 0x80) --longest;  // not within a character of UTF-8
+    text = text.substr(0, longest) + "…";
+  }
   return value.is_string() ? text + " (a string)" : text;
 }
 

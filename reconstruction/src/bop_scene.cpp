@@ -11,6 +11,7 @@
 #include <string>
 #include <utility>
 
+#include "bop_entry.hpp"
 #include "image_header.hpp"
 #include "json_file.hpp"
 #include "vantage/raycore/error.hpp"
@@ -21,66 +22,10 @@ namespace vantage {
 namespace {
 
 namespace fs = std::filesystem;
+using detail::Entry;
 using detail::ImageSize;
+using detail::shown;
 using nlohmann::json;
-
-/// A value as the user wrote it, cut off where it gets long.
-std::string shown(const json& value) {
-  constexpr std::size_t kLongest = 60;
-  std::string text = value.dump(-1, ' ', false, json::error_handler_t::replace);
-  if (text.size() > kLongest) text = text.substr(0, kLongest) + "…";
-  return text;
-}
-
-/// One image's part of scene_camera.json; knows its place for the messages.
-class Entry {
- public:
-  Entry(const fs::path& file, const std::string& id, const json& value)
-      : value_(value), where_(fmt::format("{}: \"{}\"", file.string(), id)) {
-    if (!value.is_object()) {
-      throw bad_input(where_, fmt::format("found {}; expected an object with cam_K and the other "
-                                          "keys of one image",
-                                          shown(value)));
-    }
-  }
-
-  const std::string& where() const { return where_; }
-  std::string where(const char* key) const { return where_ + ": " + key; }
-  bool has(const char* key) const { return value_.contains(key); }
-
-  template <std::size_t kCount>
-  std::array<double, kCount> numbers(const char* key) const {
-    const json& found = required(key);
-    const bool fits = found.is_array() && found.size() == kCount &&
-                      std::all_of(found.begin(), found.end(),
-                                  [](const json& number) { return number.is_number(); });
-    if (!fits) {
-      throw bad_input(where(key),
-                      fmt::format("found {}{}; expected {} numbers",
-                                  found.is_array() ? fmt::format("{} values, ", found.size()) : "",
-                                  shown(found), kCount));
-    }
-    return found.get<std::array<double, kCount>>();
-  }
-
-  double positive(const char* key) const {
-    const json& found = required(key);
-    if (!found.is_number() || !(found.get<double>() > 0)) {
-      throw bad_input(where(key), fmt::format("found {}; expected a number > 0", shown(found)));
-    }
-    return found.get<double>();
-  }
-
- private:
-  const json& required(const char* key) const {
-    const auto found = value_.find(key);
-    if (found == value_.end()) throw bad_input(where(key), "missing; every image needs it");
-    return *found;
-  }
-
-  const json& value_;
-  std::string where_;
-};
 
 int parse_id(const fs::path& file, const std::string& key) {
   int id = 0;

@@ -42,10 +42,10 @@ void check_yaml(const std::string& text) {
 }
 
 /// `text` stands in line 2, behind a good line.
-void check_line_refused(const std::string& text, std::string_view where,
-                        std::initializer_list<std::string_view> parts) {
+void expect_line_refused(const std::string& text, std::string_view where,
+                         std::initializer_list<std::string_view> parts) {
   CAPTURE(text);
-  check_refused([&] { check_yaml(std::string(kArea) + text); }, where, parts);
+  expect_refused([&] { check_yaml(std::string(kArea) + text); }, where, parts);
 }
 
 }  // namespace
@@ -59,62 +59,62 @@ TEST_CASE("a document that fits its schema passes") {
 }
 
 TEST_CASE("an unknown key is refused with the nearest known one") {
-  check_refused([] { check_yaml("area:\n  min_m: [0, 0, 0]\n  maxx: [1, 1, 1]\n"); },
-                "cell.yaml:3: area.maxx", {"unknown key", "did you mean \"max_m\""});
-  check_line_refused("siez: 1", "cell.yaml:2: siez", {"did you mean \"size\""});
-  check_line_refused("Method: mesh", "cell.yaml:2: Method", {"did you mean \"method\""});
-  check_line_refused("list: [{mehs: a}]", "cell.yaml:2: list[0].mehs", {"did you mean \"mesh\""});
-  check_line_refused("list: [{zzzzzzzz: a}]", "cell.yaml:2: list[0].zzzzzzzz",
-                     {"unknown key", "box, mesh"});
-  check_line_refused(std::string(900, 'k') + ": 1", "k", {"the keys here are"});
+  expect_refused([] { check_yaml("area:\n  min_m: [0, 0, 0]\n  maxx: [1, 1, 1]\n"); },
+                 "cell.yaml:3: area.maxx", {"unknown key", "did you mean \"max_m\""});
+  expect_line_refused("siez: 1", "cell.yaml:2: siez", {"did you mean \"size\""});
+  expect_line_refused("Method: mesh", "cell.yaml:2: Method", {"did you mean \"method\""});
+  expect_line_refused("list: [{mehs: a}]", "cell.yaml:2: list[0].mehs", {"did you mean \"mesh\""});
+  expect_line_refused("list: [{zzzzzzzz: a}]", "cell.yaml:2: list[0].zzzzzzzz",
+                      {"unknown key", "box, mesh"});
+  expect_line_refused(std::string(900, 'k') + ": 1", "k", {"the keys here are"});
 }
 
 TEST_CASE("a missing key is refused with what it is") {
-  check_refused([] { check_yaml("size: 1\n"); }, "cell.yaml:1: area",
-                {"missing", "an object", "where to look"});
-  check_refused([] { check_yaml("size: 1\narea: {min_m: [0, 0, 0]}\n"); },
-                "cell.yaml:2: area.max_m", {"missing", "an array of 3 numbers"});
+  expect_refused([] { check_yaml("size: 1\n"); }, "cell.yaml:1: area",
+                 {"missing", "an object", "where to look"});
+  expect_refused([] { check_yaml("size: 1\narea: {min_m: [0, 0, 0]}\n"); },
+                 "cell.yaml:2: area.max_m", {"missing", "an array of 3 numbers"});
 }
 
 TEST_CASE("a value of the wrong type is refused with the value and the type") {
-  check_refused([] { check_yaml("[1, 2]"); }, "cell.yaml:1", {"found [1,2]", "an object"});
-  check_line_refused("size: \"5\"", "cell.yaml:2: size",
-                     {"found \"5\" (a string)", "a number > 0 and <= 10"});
-  check_line_refused("size:", "cell.yaml:2: size", {"nothing (null)", "a number"});
-  check_line_refused("count: 1.5", "cell.yaml:2: count", {"found 1.5", "a whole number >= 1"});
-  check_line_refused("title: 7", "cell.yaml:2: title", {"found 7", "a string or null"});
-  check_line_refused("on: yes", "cell.yaml:2: on", {"found \"yes\" (a string)", "true or false"});
-  check_line_refused("list: 3", "cell.yaml:2: list", {"found 3", "an array of 1 to 3 objects"});
-  check_refused([] { check_yaml("area:\n  max_m: [1, 1, 1]\n  min_m:\n  - 0\n  - x\n  - 0\n"); },
-                "cell.yaml:5: area.min_m[1]", {"found \"x\" (a string)", "a number"});
+  expect_refused([] { check_yaml("[1, 2]"); }, "cell.yaml:1", {"found [1,2]", "an object"});
+  expect_line_refused("size: \"5\"", "cell.yaml:2: size",
+                      {"found \"5\" (a string)", "a number > 0 and <= 10"});
+  expect_line_refused("size:", "cell.yaml:2: size", {"nothing (null)", "a number"});
+  expect_line_refused("count: 1.5", "cell.yaml:2: count", {"found 1.5", "a whole number >= 1"});
+  expect_line_refused("title: 7", "cell.yaml:2: title", {"found 7", "a string or null"});
+  expect_line_refused("on: yes", "cell.yaml:2: on", {"found \"yes\" (a string)", "true or false"});
+  expect_line_refused("list: 3", "cell.yaml:2: list", {"found 3", "an array of 1 to 3 objects"});
+  expect_refused([] { check_yaml("area:\n  max_m: [1, 1, 1]\n  min_m:\n  - 0\n  - x\n  - 0\n"); },
+                 "cell.yaml:5: area.min_m[1]", {"found \"x\" (a string)", "a number"});
 }
 
 TEST_CASE("a number that is not finite is refused") {
-  check_line_refused("size: .nan", "cell.yaml:2: size", {"found nan", "finite"});
-  check_line_refused("free: {a: [.inf]}", "cell.yaml:2: free.a[0]", {"found inf", "finite"});
+  expect_line_refused("size: .nan", "cell.yaml:2: size", {"found nan", "finite"});
+  expect_line_refused("free: {a: [.inf]}", "cell.yaml:2: free.a[0]", {"found inf", "finite"});
 }
 
 TEST_CASE("a value out of its limits is refused with the limits") {
-  check_line_refused("size: 0", "cell.yaml:2: size", {"found 0", "a number > 0 and <= 10"});
-  check_line_refused("size: 11", "cell.yaml:2: size", {"found 11"});
-  check_line_refused("count: 0", "cell.yaml:2: count", {"found 0", "a whole number >= 1"});
-  check_line_refused("method: ray", "cell.yaml:2: method",
-                     {"found \"ray\"", "\"voxel\", \"mesh\""});
-  check_line_refused("name: ''", "cell.yaml:2: name", {"found \"\"", "not empty"});
-  check_line_refused("hash: xyzw", "cell.yaml:2: hash", {"found \"xyzw\"", "[0-9a-f]{4}"});
-  check_line_refused("list: []", "cell.yaml:2: list", {"found []", "1 to 3 objects"});
-  check_line_refused("list:\n  - mesh: a\n  - box: -1", "cell.yaml:4: list[1].box",
-                     {"found -1", "a number >= 0"});
-  check_line_refused("limits: {a: -1}", "cell.yaml:2: limits.a", {"found -1", "a number >= 0"});
-  check_refused([] { check_yaml("area: {min_m: [0, 0], max_m: [1, 1, 1]}\n"); },
-                "cell.yaml:1: area.min_m", {"found [0,0]", "an array of 3 numbers"});
+  expect_line_refused("size: 0", "cell.yaml:2: size", {"found 0", "a number > 0 and <= 10"});
+  expect_line_refused("size: 11", "cell.yaml:2: size", {"found 11"});
+  expect_line_refused("count: 0", "cell.yaml:2: count", {"found 0", "a whole number >= 1"});
+  expect_line_refused("method: ray", "cell.yaml:2: method",
+                      {"found \"ray\"", "\"voxel\", \"mesh\""});
+  expect_line_refused("name: ''", "cell.yaml:2: name", {"found \"\"", "not empty"});
+  expect_line_refused("hash: xyzw", "cell.yaml:2: hash", {"found \"xyzw\"", "[0-9a-f]{4}"});
+  expect_line_refused("list: []", "cell.yaml:2: list", {"found []", "1 to 3 objects"});
+  expect_line_refused("list:\n  - mesh: a\n  - box: -1", "cell.yaml:4: list[1].box",
+                      {"found -1", "a number >= 0"});
+  expect_line_refused("limits: {a: -1}", "cell.yaml:2: limits.a", {"found -1", "a number >= 0"});
+  expect_refused([] { check_yaml("area: {min_m: [0, 0], max_m: [1, 1, 1]}\n"); },
+                 "cell.yaml:1: area.min_m", {"found [0,0]", "an array of 3 numbers"});
 }
 
 TEST_CASE("one of two keys has to be there, and not both") {
-  check_line_refused("list: [{}]", "cell.yaml:2: list[0]",
-                     {"found {}", "exactly one of the keys \"box\", \"mesh\""});
-  check_line_refused("list: [{box: 1, mesh: a}]", "cell.yaml:2: list[0]",
-                     {"exactly one of the keys"});
+  expect_line_refused("list: [{}]", "cell.yaml:2: list[0]",
+                      {"found {}", "exactly one of the keys \"box\", \"mesh\""});
+  expect_line_refused("list: [{box: 1, mesh: a}]", "cell.yaml:2: list[0]",
+                      {"exactly one of the keys"});
 }
 
 TEST_CASE("the plan's schema takes what DESIGN shows and nothing else") {
@@ -143,17 +143,17 @@ TEST_CASE("the plan's schema takes what DESIGN shows and nothing else") {
   for (const auto& [key, unused] : plan.items()) {
     changed = plan;
     changed.erase(key);
-    check_refused([&] { check(changed); }, "plan.json: " + key, {"missing"});
+    expect_refused([&] { check(changed); }, "plan.json: " + key, {"missing"});
   }
   changed = plan;
   changed["candidates"][1]["feasable"] = true;
-  check_refused([&] { check(changed); }, "plan.json: candidates[1].feasable", {"\"feasible\""});
+  expect_refused([&] { check(changed); }, "plan.json: candidates[1].feasable", {"\"feasible\""});
   changed = plan;
   changed["inputs"][0]["sha256"] = "0123";
-  check_refused([&] { check(changed); }, "plan.json: inputs[0].sha256", {"found \"0123\""});
+  expect_refused([&] { check(changed); }, "plan.json: inputs[0].sha256", {"found \"0123\""});
   changed = plan;
   changed["best"]["servo_iteration"] = -1;
-  check_refused([&] { check(changed); }, "plan.json: best.servo_iteration", {"found -1"});
+  expect_refused([&] { check(changed); }, "plan.json: best.servo_iteration", {"found -1"});
 }
 
 }  // namespace vantage::test

@@ -23,11 +23,11 @@ Workcell load(const TemporaryFolder& folder, const std::string& text) {
 }
 
 /// `text` follows a good first line.
-void check_text_refused(const std::string& text, std::string_view where,
-                        std::initializer_list<std::string_view> parts) {
+void expect_text_refused(const std::string& text, std::string_view where,
+                         std::initializer_list<std::string_view> parts) {
   CAPTURE(text);
   TemporaryFolder folder;
-  check_refused([&] { load(folder, std::string(kArea) + text); }, where, parts);
+  expect_refused([&] { load(folder, std::string(kArea) + text); }, where, parts);
 }
 
 }  // namespace
@@ -112,48 +112,48 @@ TEST_CASE("boxes and meshes become objects at their poses") {
   CHECK((arm.T_world_object * corner - Eigen::Vector3d(9, 1, 0)).norm() < 1e-6);
   REQUIRE(cell.known_objects.size() == 1);
   CHECK(cell.known_objects[0].mesh->corner(0, 1).x() == 1000);
-  CHECK(cell.files ==
-        std::vector{folder / "cell.yaml", folder / "meshes/arm.stl", folder / "meshes/arm.stl"});
+  CHECK(cell.files == std::vector{folder / "cell.yaml", folder / "meshes/arm.stl"});
 }
 
 TEST_CASE("a workcell that is missing or no YAML is refused") {
   TemporaryFolder folder;
-  check_refused([&] { load_workcell(folder / "cell.yaml"); }, "cell.yaml", {"o such file"});
-  check_refused([&] { load(folder, "work_area: 1\n wrong: 2\n"); }, "cell.yaml:2:7",
-                {"no valid YAML"});
+  expect_refused([&] { load_workcell(folder / "cell.yaml"); }, "cell.yaml", {"o such file"});
+  expect_refused([&] { load(folder, "work_area: 1\n wrong: 2\n"); }, "cell.yaml:2:7",
+                 {"no valid YAML"});
 }
 
 TEST_CASE("a workcell's keys are checked against the schema") {
   TemporaryFolder folder;
-  check_refused([&] { load(folder, "voxel_size_m: 0.01\n"); }, "cell.yaml:1: work_area",
-                {"missing", "the box in which vantage looks"});
-  check_text_refused("voxel_size: 0.01\n", "cell.yaml:2: voxel_size",
-                     {"unknown key", "\"voxel_size_m\""});
-  check_text_refused("voxel_size_m: 0\n", "cell.yaml:2: voxel_size_m", {"found 0", "a number > 0"});
-  check_text_refused("movable_camera: {width: 640, height: 480, fx: -1, fy: 1, cx: 0, cy: 0}\n",
-                     "cell.yaml:2: movable_camera.fx", {"found -1", "a number > 0"});
-  check_text_refused("movable_camera: {width: 640, height: 480, fx: 1, fy: 1, cx: 0}\n",
-                     "cell.yaml:2: movable_camera.cy", {"missing", "principal point"});
-  check_text_refused("candidates: {radii_m: [0.5, -1]}\n", "cell.yaml:2: candidates.radii_m[1]",
-                     {"found -1", "a number > 0"});
-  check_text_refused("candidates: {count: many}\n", "cell.yaml:2: candidates.count",
-                     {"found \"many\"", "a whole number >= 1 and <= 100000"});
-  check_text_refused("sensor: {depth_range_m: [1]}\n", "cell.yaml:2: sensor.depth_range_m",
-                     {"found [1]", "2 numbers"});
+  expect_refused([&] { load(folder, "voxel_size_m: 0.01\n"); }, "cell.yaml:1: work_area",
+                 {"missing", "the box in which vantage looks"});
+  expect_text_refused("voxel_size: 0.01\n", "cell.yaml:2: voxel_size",
+                      {"unknown key", "\"voxel_size_m\""});
+  expect_text_refused("voxel_size_m: 0\n", "cell.yaml:2: voxel_size_m",
+                      {"found 0", "a number > 0"});
+  expect_text_refused("movable_camera: {width: 640, height: 480, fx: -1, fy: 1, cx: 0, cy: 0}\n",
+                      "cell.yaml:2: movable_camera.fx", {"found -1", "a number > 0"});
+  expect_text_refused("movable_camera: {width: 640, height: 480, fx: 1, fy: 1, cx: 0}\n",
+                      "cell.yaml:2: movable_camera.cy", {"missing", "principal point"});
+  expect_text_refused("candidates: {radii_m: [0.5, -1]}\n", "cell.yaml:2: candidates.radii_m[1]",
+                      {"found -1", "a number > 0"});
+  expect_text_refused("candidates: {count: many}\n", "cell.yaml:2: candidates.count",
+                      {"found \"many\"", "a whole number >= 1 and <= 100000"});
+  expect_text_refused("sensor: {depth_range_m: [1]}\n", "cell.yaml:2: sensor.depth_range_m",
+                      {"found [1]", "2 numbers"});
 }
 
 TEST_CASE("boxes and ranges the wrong way round are refused") {
   TemporaryFolder folder;
-  check_refused([&] { load(folder, "work_area: {min_m: [0, 0, 1], max_m: [1, 1, 0]}\n"); },
-                "cell.yaml:1: work_area", {"min < max"});
-  check_text_refused("sensor: {depth_range_m: [3, 0.1]}\n", "cell.yaml:2: sensor.depth_range_m",
-                     {"3 to 0.1"});
-  check_text_refused(
+  expect_refused([&] { load(folder, "work_area: {min_m: [0, 0, 1], max_m: [1, 1, 0]}\n"); },
+                 "cell.yaml:1: work_area", {"min < max"});
+  expect_text_refused("sensor: {depth_range_m: [3, 0.1]}\n", "cell.yaml:2: sensor.depth_range_m",
+                      {"3 to 0.1"});
+  expect_text_refused(
       "movable_camera: {width: 640, height: 480, fx: 1, fy: 1, cx: 0, cy: 0,\n"
       "  depth_range_m: [2, 2]}\n",
       "cell.yaml:3: movable_camera.depth_range_m", {"2 to 2"});
-  check_text_refused("reach: {base_m: [0, 0, 0], min_m: 2, max_m: 1}\n", "cell.yaml:2: reach",
-                     {"min_m: 2", "max_m: 1"});
+  expect_text_refused("reach: {base_m: [0, 0, 0], min_m: 2, max_m: 1}\n", "cell.yaml:2: reach",
+                      {"min_m: 2", "max_m: 1"});
 }
 
 TEST_CASE("objects that are none are refused") {
@@ -161,33 +161,33 @@ TEST_CASE("objects that are none are refused") {
     return "known_objects:\n  - " + object + "\n";
   };
   const std::string box = "box: {min_m: [0, 0, 0], max_m: [1, 1, 1]}";
-  check_text_refused(with("{name: a}"), "cell.yaml:3: known_objects[0]",
-                     {"exactly one of the keys \"box\", \"mesh\""});
-  check_text_refused(with("{name: a, mesh: b.stl, " + box + "}"), "cell.yaml:3: known_objects[0]",
-                     {"exactly one of the keys"});
-  check_text_refused(with("{" + box + "}"), "cell.yaml:3: known_objects[0].name", {"missing"});
-  check_text_refused(with("{name: a, mesh: b.stl}"), "cell.yaml:3: known_objects[0].mesh",
-                     {"no file", "b.stl", "relative"});
-  check_text_refused(with("{name: a, unit_m: 1, " + box + "}"),
-                     "cell.yaml:3: known_objects[0].unit_m", {"only a mesh"});
-  check_text_refused(with("{name: a, box: {min_m: [0, 0, 0], max_m: [1, 0, 1]}}"),
-                     "cell.yaml:3: known_objects[0].box", {"min < max"});
-  check_text_refused(with("{name: a, " + box + ", pose: {rotation: {w: 1, x: 1, y: 0, z: 0}}}"),
-                     "cell.yaml:3: known_objects[0].pose.rotation", {"norm", "expected 1"});
+  expect_text_refused(with("{name: a}"), "cell.yaml:3: known_objects[0]",
+                      {"exactly one of the keys \"box\", \"mesh\""});
+  expect_text_refused(with("{name: a, mesh: b.stl, " + box + "}"), "cell.yaml:3: known_objects[0]",
+                      {"exactly one of the keys"});
+  expect_text_refused(with("{" + box + "}"), "cell.yaml:3: known_objects[0].name", {"missing"});
+  expect_text_refused(with("{name: a, mesh: b.stl}"), "cell.yaml:3: known_objects[0].mesh",
+                      {"no file", "b.stl", "relative"});
+  expect_text_refused(with("{name: a, unit_m: 1, " + box + "}"),
+                      "cell.yaml:3: known_objects[0].unit_m", {"only a mesh"});
+  expect_text_refused(with("{name: a, box: {min_m: [0, 0, 0], max_m: [1, 0, 1]}}"),
+                      "cell.yaml:3: known_objects[0].box", {"min < max"});
+  expect_text_refused(with("{name: a, " + box + ", pose: {rotation: {w: 1, x: 1, y: 0, z: 0}}}"),
+                      "cell.yaml:3: known_objects[0].pose.rotation", {"norm", "expected 1"});
 }
 
 TEST_CASE("a name may be there once only") {
   const std::string box = "box: {min_m: [0, 0, 0], max_m: [1, 1, 1]}";
-  check_text_refused("static_structures:\n  - {name: a, " + box +
-                         "}\nknown_objects:\n  - {name: a, " + box + "}\n",
-                     "cell.yaml:5: known_objects[0].name",
-                     {"\"a\"", "cell.yaml:3: static_structures[0].name"});
+  expect_text_refused("static_structures:\n  - {name: a, " + box +
+                          "}\nknown_objects:\n  - {name: a, " + box + "}\n",
+                      "cell.yaml:5: known_objects[0].name",
+                      {"\"a\"", "cell.yaml:3: static_structures[0].name"});
 }
 
 TEST_CASE("a damaged mesh is refused with its own place") {
   TemporaryFolder folder;
   folder.write("a.stl", "solid t\nfacet normal 0 0 1\nouter loop\nvertex 0 0 nan\n");
-  check_refused(
+  expect_refused(
       [&] { load(folder, std::string(kArea) + "known_objects: [{name: a, mesh: a.stl}]\n"); }, "",
       {""});
 }

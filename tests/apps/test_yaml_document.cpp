@@ -16,10 +16,10 @@ json value(const std::string& text) {
   return parse_yaml("v: " + text, "t.yaml").root["v"];
 }
 
-void check_text_refused(std::string_view text, std::string_view where,
-                        std::initializer_list<std::string_view> parts) {
+void expect_text_refused(std::string_view text, std::string_view where,
+                         std::initializer_list<std::string_view> parts) {
   CAPTURE(text.substr(0, 100));
-  check_refused([&] { parse_yaml(text, "t.yaml"); }, where, parts);
+  expect_refused([&] { parse_yaml(text, "t.yaml"); }, where, parts);
 }
 
 }  // namespace
@@ -77,32 +77,38 @@ TEST_CASE("a document without lines names the file and the key") {
   CHECK(document.place("") == "plan.json");
 }
 
+TEST_CASE("long values are cut off between characters") {
+  const std::string text = shown(json("é" + std::string(56, 'x') + "éé" + std::string(50, 'x')));
+  CHECK(text == "\"é" + std::string(56, 'x') + "… (a string)");
+  CHECK(shown(json("short")) == "\"short\" (a string)");
+}
+
 TEST_CASE("aliases are expanded") {
   const Document document = parse_yaml("a: &box {min: 1}\nb: *box\n", "t.yaml");
   CHECK(document.root == json::parse(R"({"a": {"min": 1}, "b": {"min": 1}})"));
 }
 
 TEST_CASE("syntax errors carry line and column") {
-  check_text_refused("a: [1, 2\nb: 3\n", "t.yaml:2:2", {"no valid YAML"});
-  check_text_refused("a: 1\n b: 2\n", "t.yaml:2:3", {"no valid YAML"});
-  check_text_refused("a: *nowhere\n", "t.yaml:1:4", {"no valid YAML"});
+  expect_text_refused("a: [1, 2\nb: 3\n", "t.yaml:2:2", {"no valid YAML"});
+  expect_text_refused("a: 1\n b: 2\n", "t.yaml:2:3", {"no valid YAML"});
+  expect_text_refused("a: *nowhere\n", "t.yaml:1:4", {"no valid YAML"});
 }
 
 TEST_CASE("a key that is there twice is refused with both lines") {
-  check_text_refused("a: 1\nb: 2\na: 3\n", "t.yaml:3", {"\"a\"", "twice", "line 1"});
-  check_text_refused("x:\n  a: 1\n  'a': 2\n", "t.yaml:3", {"\"a\"", "line 2"});
+  expect_text_refused("a: 1\nb: 2\na: 3\n", "t.yaml:3", {"\"a\"", "twice", "line 1"});
+  expect_text_refused("x:\n  a: 1\n  'a': 2\n", "t.yaml:3", {"\"a\"", "line 2"});
 }
 
 TEST_CASE("keys that are no words, tags and numbers out of range are refused") {
-  check_text_refused("a: 1\n? [x, y]\n: 2\n", "t.yaml:2", {"key"});
-  check_text_refused("a: !point [1, 2]\n", "t.yaml:1", {"!point"});
-  check_text_refused("a: !!python/object {}\n", "t.yaml:1", {"python/object"});
-  check_text_refused("\na: 1e999\n", "t.yaml:2", {"1e999", "out of range"});
-  check_text_refused("a: 0xffffffffffffffffff\n", "t.yaml:1", {"out of range"});
+  expect_text_refused("a: 1\n? [x, y]\n: 2\n", "t.yaml:2", {"key"});
+  expect_text_refused("a: !point [1, 2]\n", "t.yaml:1", {"!point"});
+  expect_text_refused("a: !!python/object {}\n", "t.yaml:1", {"python/object"});
+  expect_text_refused("\na: 1e999\n", "t.yaml:2", {"1e999", "out of range"});
+  expect_text_refused("a: 0xffffffffffffffffff\n", "t.yaml:1", {"out of range"});
 }
 
 TEST_CASE("nesting without end and alias bombs are refused") {
-  check_text_refused("a: " + std::string(65, '[') + std::string(65, ']'), "t.yaml:1", {"64"});
+  expect_text_refused("a: " + std::string(65, '[') + std::string(65, ']'), "t.yaml:1", {"64"});
   CHECK_NOTHROW(parse_yaml(std::string(64, '[') + std::string(64, ']'), "t.yaml"));
   // yaml-cpp has a limit of its own; what counts is that the stack survives.
   CHECK_THROWS_AS(parse_yaml(std::string(1'000'000, '['), "t.yaml"), Error);
@@ -111,29 +117,29 @@ TEST_CASE("nesting without end and alias bombs are refused") {
   for (int i = 0; i < 2000; ++i) steps += std::string(std::size_t(i), ' ') + "a:\n";
   CHECK_THROWS_AS(parse_yaml(steps, "t.yaml"), Error);
 
-  check_text_refused("a: &a [*a]\n", "t.yaml:1", {"64"});
+  expect_text_refused("a: &a [*a]\n", "t.yaml:1", {"64"});
   std::string bomb = "x0: &x0 [1, 1, 1, 1, 1, 1, 1, 1, 1, 1]\n";
   for (int i = 1; i < 12; ++i) {
     const std::string alias = std::string("*x").append(std::to_string(i - 1)).append(", ");
     bomb.append("x").append(std::to_string(i)).append(": &x").append(std::to_string(i));
     bomb.append(" [" + alias + alias + alias + alias + alias + alias + alias + "0]\n");
   }
-  check_text_refused(bomb, "t.yaml:1", {"100000", "aliases"});
+  expect_text_refused(bomb, "t.yaml:1", {"100000", "aliases"});
 }
 
 TEST_CASE("no document and many are refused") {
-  check_text_refused("", "t.yaml", {"empty"});
-  check_text_refused("# only a comment\n", "t.yaml", {"empty"});
-  check_text_refused("a: 1\n---\nb: 2\n", "t.yaml:3", {"2 documents", "expected one"});
+  expect_text_refused("", "t.yaml", {"empty"});
+  expect_text_refused("# only a comment\n", "t.yaml", {"empty"});
+  expect_text_refused("a: 1\n---\nb: 2\n", "t.yaml:3", {"2 documents", "expected one"});
 }
 
 TEST_CASE("YAML files are read, unless they are missing or too large") {
   TemporaryFolder folder;
   CHECK(read_yaml(folder.write("a.yaml", "a: 1\n")).root == json::parse(R"({"a": 1})"));
   CHECK(read_yaml(folder / "a.yaml").name == (folder / "a.yaml").string());
-  check_refused([&] { read_yaml(folder / "b.yaml"); }, "b.yaml", {"o such file"});
+  expect_refused([&] { read_yaml(folder / "b.yaml"); }, "b.yaml", {"o such file"});
   const auto large = folder.write("large.yaml", std::string((16u << 20) + 1, ' '));
-  check_refused([&] { read_yaml(large); }, "large.yaml", {"16777216"});
+  expect_refused([&] { read_yaml(large); }, "large.yaml", {"16777216"});
 }
 
 }  // namespace vantage::test

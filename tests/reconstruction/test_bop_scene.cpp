@@ -12,21 +12,21 @@
 namespace vantage::test {
 namespace {
 
-void check_entry_refused(const std::string& members, const std::string& key,
-                         std::initializer_list<std::string_view> parts) {
+void expect_entry_refused(const std::string& members, const std::string& key,
+                          std::initializer_list<std::string_view> parts) {
   CAPTURE(members);
   SceneFolder scene;
   scene.entry(members).depth();
-  check_refused([&] { load_bop_scene(scene.path()); },
-                "scene_camera.json: \"7\"" + (key.empty() ? "" : ": " + key), parts);
+  expect_refused([&] { load_bop_scene(scene.path()); },
+                 "scene_camera.json: \"7\"" + (key.empty() ? "" : ": " + key), parts);
 }
 
-void check_json_refused(std::string_view text, std::string_view where_end,
-                        std::initializer_list<std::string_view> parts) {
+void expect_json_refused(std::string_view text, std::string_view where_end,
+                         std::initializer_list<std::string_view> parts) {
   CAPTURE(text.substr(0, 100));
   SceneFolder scene;
   scene.json(text).depth();
-  check_refused([&] { load_bop_scene(scene.path()); }, where_end, parts);
+  expect_refused([&] { load_bop_scene(scene.path()); }, where_end, parts);
 }
 
 }  // namespace
@@ -84,7 +84,7 @@ TEST_CASE("a BOP scene's images are ordered by number, not by text, and can be p
   const BopScene two = load_bop_scene(folder.path(), {}, std::array{100, 3});
   CHECK(ids(two) == std::vector{3, 100});
   CHECK(two.files.size() == 3);
-  check_refused(
+  expect_refused(
       [&] {
         load_bop_scene(folder.path(), {}, std::array{3, 21});
       },
@@ -93,75 +93,76 @@ TEST_CASE("a BOP scene's images are ordered by number, not by text, and can be p
 
 TEST_CASE("a BOP scene that is missing is refused") {
   SceneFolder folder;
-  check_refused([&] { load_bop_scene(folder.path() / "nowhere"); }, "nowhere",
-                {"no such folder", "scene_camera.json"});
-  check_refused([&] { load_bop_scene(folder.path()); }, "scene_camera.json", {"missing"});
+  expect_refused([&] { load_bop_scene(folder.path() / "nowhere"); }, "nowhere",
+                 {"no such folder", "scene_camera.json"});
+  expect_refused([&] { load_bop_scene(folder.path()); }, "scene_camera.json", {"missing"});
   folder.good_entry();
   folder.write("depth/readme.txt", "no depth here");
-  check_refused([&] { load_bop_scene(folder.path()); }, "depth/000007.png",
-                {"missing", "\"7\"", "depth folder"});
+  expect_refused([&] { load_bop_scene(folder.path()); }, "depth/000007.png",
+                 {"missing", "\"7\"", "depth folder"});
 }
 
 TEST_CASE("a scene_camera.json that is damaged is refused") {
-  check_json_refused("", "scene_camera.json", {"empty"});
-  check_json_refused("{}", "scene_camera.json", {"found {}", "one entry per image"});
-  check_json_refused("[1, 2]", "scene_camera.json", {"found [1,2]"});
-  check_json_refused("{\n \"7\": {\"cam_K\": [1,", "scene_camera.json:2:20", {"truncated"});
-  check_json_refused("{\"7\": {\"depth_scale\": NaN}}", "scene_camera.json:1:23",
-                     {"no valid JSON"});
-  check_json_refused("{\"7\": {\"depth_scale\": 1e999}}", "scene_camera.json", {"1e999"});
-  check_json_refused("{\"7\": 3}", "scene_camera.json: \"7\"", {"found 3", "cam_K"});
-  check_json_refused("{\"seven\": {}}", "scene_camera.json: \"seven\"", {"no image id"});
-  check_json_refused("{\"-7\": {}}", "scene_camera.json: \"-7\"", {"no image id"});
-  check_json_refused("{\"99999999999\": {}}", "scene_camera.json: \"99999999999\"",
-                     {"no image id"});
+  expect_json_refused("", "scene_camera.json", {"empty"});
+  expect_json_refused("{}", "scene_camera.json", {"found {}", "one entry per image"});
+  expect_json_refused("[1, 2]", "scene_camera.json", {"found [1,2]"});
+  expect_json_refused("{\n \"7\": {\"cam_K\": [1,", "scene_camera.json:2:20", {"truncated"});
+  expect_json_refused("{\"7\": {\"depth_scale\": NaN}}", "scene_camera.json:1:23",
+                      {"no valid JSON"});
+  expect_json_refused("{\"7\": {\"depth_scale\": 1e999}}", "scene_camera.json", {"1e999"});
+  expect_json_refused("{\"7\": 3}", "scene_camera.json: \"7\"", {"found 3", "cam_K"});
+  expect_json_refused("{\"seven\": {}}", "scene_camera.json: \"seven\"", {"no image id"});
+  expect_json_refused("{\"-7\": {}}", "scene_camera.json: \"-7\"", {"no image id"});
+  expect_json_refused("{\"99999999999\": {}}", "scene_camera.json: \"99999999999\"",
+                      {"no image id"});
 }
 
 TEST_CASE("an image that is there twice is refused") {
-  check_json_refused("{\"7\": {}, \"7\": {}}", "scene_camera.json: \"7\"", {"twice", "remove one"});
-  check_json_refused("{\"7\": {}, \"007\": {}}", "scene_camera.json: \"7\"", {"image 7", "twice"});
+  expect_json_refused("{\"7\": {}, \"7\": {}}", "scene_camera.json: \"7\"",
+                      {"twice", "remove one"});
+  expect_json_refused("{\"7\": {}, \"007\": {}}", "scene_camera.json: \"7\"", {"image 7", "twice"});
   // The same key in two objects is fine; this one gets as far as the missing pose.
   const std::string entry = "{" + kCamK + ", " + kScale + "}";
-  check_json_refused("{\"7\": " + entry + ", \"8\": " + entry + "}", "\"7\": cam_R_w2c",
-                     {"missing"});
+  expect_json_refused("{\"7\": " + entry + ", \"8\": " + entry + "}", "\"7\": cam_R_w2c",
+                      {"missing"});
 }
 
 TEST_CASE("a million nested arrays are refused before they overflow the stack") {
-  check_json_refused(std::string(1'000'000, '['), "scene_camera.json:1:65", {"deeper than 64"});
-  check_json_refused("{\"a\":\n" + std::string(64, '['), "scene_camera.json:2:64",
-                     {"deeper than 64"});
+  expect_json_refused(std::string(1'000'000, '['), "scene_camera.json:1:65", {"deeper than 64"});
+  expect_json_refused("{\"a\":\n" + std::string(64, '['), "scene_camera.json:2:64",
+                      {"deeper than 64"});
   // Brackets in a string are text.
-  check_json_refused("{\"\\\"" + std::string(100, '[') + "\": 1}", "\"", {"no image id"});
+  expect_json_refused("{\"\\\"" + std::string(100, '[') + "\": 1}", "\"", {"no image id"});
 }
 
 TEST_CASE("an entry without what it needs is refused") {
   const std::string good = kCamK + ", " + kScale;
-  check_entry_refused(kScale + ", " + kPose, "cam_K", {"missing"});
-  check_entry_refused(kCamK + ", " + kPose, "depth_scale", {"missing"});
-  check_entry_refused(good, "cam_R_w2c", {"markers", "not in this version", "pose"});
-  check_entry_refused(good + R"(, "cam_R_w2c": [1, 0, 0, 0, 1, 0, 0, 0, 1])", "cam_t_w2c",
-                      {"missing"});
+  expect_entry_refused(kScale + ", " + kPose, "cam_K", {"missing"});
+  expect_entry_refused(kCamK + ", " + kPose, "depth_scale", {"missing"});
+  expect_entry_refused(good, "cam_R_w2c", {"markers", "not in this version", "pose"});
+  expect_entry_refused(good + R"(, "cam_R_w2c": [1, 0, 0, 0, 1, 0, 0, 0, 1])", "cam_t_w2c",
+                       {"missing"});
 }
 
 TEST_CASE("an entry of the wrong type or length is refused") {
   const auto with = [](const std::string& k, const std::string& scale, const std::string& pose) {
     return k + ", " + scale + ", " + pose;
   };
-  check_entry_refused(with(R"("cam_K": [1, 2, 3])", kScale, kPose), "cam_K",
-                      {"3 values, [1,2,3]", "9 numbers"});
-  check_entry_refused(with(R"("cam_K": "K")", kScale, kPose), "cam_K",
-                      {"found \"K\"", "9 numbers"});
-  check_entry_refused(with(R"("cam_K": [50, 0, 4, 0, "60", 3, 0, 0, 1])", kScale, kPose), "cam_K",
-                      {"\"60\"", "9 numbers"});
-  check_entry_refused(with(R"("cam_K": [50, 0, 4, 0, null, 3, 0, 0, 1])", kScale, kPose), "cam_K",
-                      {"null", "9 numbers"});
-  check_entry_refused(with(kCamK, R"("depth_scale": "1")", kPose), "depth_scale",
-                      {"found \"1\"", "number > 0"});
-  check_entry_refused(with(kCamK, R"("depth_scale": 0)", kPose), "depth_scale", {"found 0"});
-  check_entry_refused(with(kCamK, R"("depth_scale": -1)", kPose), "depth_scale", {"found -1"});
-  check_entry_refused(with(kCamK, kScale, R"("cam_R_w2c": [1, 0, 0], "cam_t_w2c": [0, 0, 0])"),
-                      "cam_R_w2c", {"3 values", "9 numbers"});
-  check_entry_refused(
+  expect_entry_refused(with(R"("cam_K": [1, 2, 3])", kScale, kPose), "cam_K",
+                       {"3 values, [1,2,3]", "9 numbers"});
+  expect_entry_refused(with(R"("cam_K": "K")", kScale, kPose), "cam_K",
+                       {"found \"K\"", "9 numbers"});
+  expect_entry_refused(with(R"("cam_K": [50, 0, 4, 0, "60", 3, 0, 0, 1])", kScale, kPose), "cam_K",
+                       {"\"60\"", "9 numbers"});
+  expect_entry_refused(with(R"("cam_K": [50, 0, 4, 0, null, 3, 0, 0, 1])", kScale, kPose), "cam_K",
+                       {"null", "9 numbers"});
+  expect_entry_refused(with(kCamK, R"("depth_scale": "1")", kPose), "depth_scale",
+                       {"found \"1\"", "number > 0"});
+  expect_entry_refused(with(kCamK, R"("depth_scale": 0)", kPose), "depth_scale", {"found 0"});
+  expect_entry_refused(with(kCamK, R"("depth_scale": -1)", kPose), "depth_scale", {"found -1"});
+  expect_entry_refused(with(kCamK, kScale, R"("cam_R_w2c": [1, 0, 0], "cam_t_w2c": [0, 0, 0])"),
+                       "cam_R_w2c", {"3 values", "9 numbers"});
+  expect_entry_refused(
       with(kCamK, kScale, R"("cam_R_w2c": [1, 0, 0, 0, 1, 0, 0, 0, 1], "cam_t_w2c": [0, 0])"),
       "cam_t_w2c", {"2 values", "3 numbers"});
 }
@@ -170,46 +171,46 @@ TEST_CASE("intrinsics that are none are refused") {
   const auto with_k = [](const std::string& k) {
     return "\"cam_K\": [" + k + "], " + kScale + ", " + kPose;
   };
-  check_entry_refused(with_k("0, 0, 4, 0, 60, 3, 0, 0, 1"), "cam_K", {"fx", "0"});
-  check_entry_refused(with_k("50, 0, 4, 0, -60, 3, 0, 0, 1"), "cam_K", {"fy", "-60"});
-  check_entry_refused(with_k("50, 0.5, 4, 0, 60, 3, 0, 0, 1"), "cam_K", {"0.5", "without skew"});
+  expect_entry_refused(with_k("0, 0, 4, 0, 60, 3, 0, 0, 1"), "cam_K", {"fx", "0"});
+  expect_entry_refused(with_k("50, 0, 4, 0, -60, 3, 0, 0, 1"), "cam_K", {"fy", "-60"});
+  expect_entry_refused(with_k("50, 0.5, 4, 0, 60, 3, 0, 0, 1"), "cam_K", {"0.5", "without skew"});
   // Column by column instead of row by row.
-  check_entry_refused(with_k("50, 0, 0, 0, 60, 0, 4, 3, 1"), "cam_K", {"row by row"});
+  expect_entry_refused(with_k("50, 0, 0, 0, 60, 0, 4, 3, 1"), "cam_K", {"row by row"});
 }
 
 TEST_CASE("a matrix that is no rotation is refused") {
   const auto with_r = [](const std::string& r) {
     return kCamK + ", " + kScale + ", \"cam_R_w2c\": [" + r + "], \"cam_t_w2c\": [0, 0, 0]";
   };
-  check_entry_refused(with_r("1, 0, 0, 0, 2, 0, 0, 0, 1"), "cam_R_w2c", {"no rotation"});
-  check_entry_refused(with_r("1, 0, 0, 0, 1, 0, 0, 0, -1"), "cam_R_w2c", {"reflection"});
+  expect_entry_refused(with_r("1, 0, 0, 0, 2, 0, 0, 0, 1"), "cam_R_w2c", {"no rotation"});
+  expect_entry_refused(with_r("1, 0, 0, 0, 1, 0, 0, 0, -1"), "cam_R_w2c", {"reflection"});
 }
 
 TEST_CASE("depth and intrinsics of different size are refused") {
   SceneFolder folder;
   folder.entry(R"("cam_K": [525, 0, 319.5, 0, 525, 239.5, 0, 0, 1], )" + kScale + ", " + kPose);
   folder.depth();
-  check_refused([&] { load_bop_scene(folder.path()); }, "\"7\": cam_K",
-                {"(319.5, 239.5)", "8 x 6", "depth and intrinsics of different size"});
+  expect_refused([&] { load_bop_scene(folder.path()); }, "\"7\": cam_K",
+                 {"(319.5, 239.5)", "8 x 6", "depth and intrinsics of different size"});
 }
 
 TEST_CASE("depth, colour and entry have to be of one size") {
   SceneFolder folder;
   folder.good_entry().depth().color(8, 5);
-  check_refused([&] { load_bop_scene(folder.path()); }, "rgb/000007.png",
-                {"8 x 5", "8 x 6", "depth/000007.png"});
+  expect_refused([&] { load_bop_scene(folder.path()); }, "rgb/000007.png",
+                 {"8 x 5", "8 x 6", "depth/000007.png"});
 
-  check_entry_refused(kGoodEntry + R"(, "width": 9, "height": 6)", "width, height",
-                      {"9 x 6", "8 x 6"});
-  check_entry_refused(kGoodEntry + R"(, "width": 8)", "height", {"missing"});
-  check_entry_refused(kGoodEntry + R"(, "width": 8.5, "height": 6)", "width",
-                      {"8.5", "whole number"});
-  check_entry_refused(kGoodEntry + R"(, "width": 8, "height": 1e9)", "height", {"16384"});
+  expect_entry_refused(kGoodEntry + R"(, "width": 9, "height": 6)", "width, height",
+                       {"9 x 6", "8 x 6"});
+  expect_entry_refused(kGoodEntry + R"(, "width": 8)", "height", {"missing"});
+  expect_entry_refused(kGoodEntry + R"(, "width": 8.5, "height": 6)", "width",
+                       {"8.5", "whole number"});
+  expect_entry_refused(kGoodEntry + R"(, "width": 8, "height": 1e9)", "height", {"16384"});
 
   SceneFolder nothing;
   nothing.good_entry();
-  check_refused([&] { load_bop_scene(nothing.path()); }, "scene_camera.json: \"7\"",
-                {"size is not known", "000007.png", "width and height"});
+  expect_refused([&] { load_bop_scene(nothing.path()); }, "scene_camera.json: \"7\"",
+                 {"size is not known", "000007.png", "width and height"});
 }
 
 TEST_CASE("a depth image that is damaged or of 8 bits is refused") {
@@ -217,15 +218,15 @@ TEST_CASE("a depth image that is damaged or of 8 bits is refused") {
   folder.good_entry().depth();
   const std::string whole = read_text(folder.path() / "depth/000007.png");
   folder.write("depth/000007.png", whole.substr(0, whole.size() / 2));
-  check_refused([&] { load_bop_scene(folder.path()); }, "depth/000007.png", {"truncated"});
+  expect_refused([&] { load_bop_scene(folder.path()); }, "depth/000007.png", {"truncated"});
   write_png(folder.path() / "depth/000007.png", ColorImage(8, 6, 1));
-  check_refused([&] { load_bop_scene(folder.path()); }, "depth/000007.png", {"8 bits", "16"});
+  expect_refused([&] { load_bop_scene(folder.path()); }, "depth/000007.png", {"8 bits", "16"});
 }
 
 TEST_CASE("a depth range that is none is refused") {
   SceneFolder folder;
   folder.good_entry().depth();
-  check_refused([&] { load_bop_scene(folder.path(), {3, 0.1}); }, "depth range", {"3", "0.1"});
+  expect_refused([&] { load_bop_scene(folder.path(), {3, 0.1}); }, "depth range", {"3", "0.1"});
 }
 
 TEST_CASE("the recordings look down at the workspace") {
@@ -265,7 +266,7 @@ TEST_CASE("the recordings look down at the workspace") {
 TEST_CASE("photographs without a scene_camera.json are no BOP scene") {
   const auto folder = recording("charuco");
   if (!folder) return;
-  check_refused([&] { load_bop_scene(*folder); }, "charuco/scene_camera.json", {"missing"});
+  expect_refused([&] { load_bop_scene(*folder); }, "charuco/scene_camera.json", {"missing"});
 }
 
 }  // namespace vantage::test

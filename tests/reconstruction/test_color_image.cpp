@@ -28,10 +28,10 @@ std::string jpeg() {
   return bytes;
 }
 
-void check_bytes_refused(std::string_view bytes, std::initializer_list<std::string_view> parts) {
+void expect_bytes_refused(std::string_view bytes, std::initializer_list<std::string_view> parts) {
   TemporaryFolder folder;
   const auto file = folder.write("image", bytes);
-  check_refused([&] { read_color(file); }, "image", parts);
+  expect_refused([&] { read_color(file); }, "image", parts);
 }
 
 std::string png(int width, int height) {
@@ -63,16 +63,16 @@ TEST_CASE("a JPEG is read as it is stored: its EXIF orientation does not turn it
 
 TEST_CASE("a colour image that is missing or no image is refused") {
   TemporaryFolder folder;
-  check_refused([&] { read_color(folder / "nowhere.png"); }, "nowhere.png", {"o such file"});
-  check_bytes_refused("", {"neither PNG nor JPEG"});
-  check_bytes_refused("GIF89a", {"neither PNG nor JPEG"});
+  expect_refused([&] { read_color(folder / "nowhere.png"); }, "nowhere.png", {"o such file"});
+  expect_bytes_refused("", {"neither PNG nor JPEG"});
+  expect_bytes_refused("GIF89a", {"neither PNG nor JPEG"});
 }
 
 TEST_CASE("a colour image that ends too early is refused, wherever it is cut") {
   for (const std::string& whole : {png(6, 4), jpeg()}) {
     for (std::size_t size = 8; size < whole.size(); ++size) {
       CAPTURE(size);
-      check_bytes_refused(whole.substr(0, size), {"truncated", std::to_string(size)});
+      expect_bytes_refused(whole.substr(0, size), {"truncated", std::to_string(size)});
     }
   }
 }
@@ -80,31 +80,31 @@ TEST_CASE("a colour image that ends too early is refused, wherever it is cut") {
 TEST_CASE("a colour image that claims too much is refused before it is decoded") {
   std::string image = png(6, 4);
   image.replace(16, 8, std::string("\x00\x01\x00\x00\x00\x01\x00\x00", 8));
-  check_bytes_refused(image, {"65536 x 65536", "16384"});
+  expect_bytes_refused(image, {"65536 x 65536", "16384"});
   image.replace(16, 8, std::string(8, '\0'));
-  check_bytes_refused(image, {"0 x 0"});
+  expect_bytes_refused(image, {"0 x 0"});
 
   std::string photograph = jpeg();
   const std::size_t frame = photograph.find("\xFF\xC0");
   photograph.replace(frame + 5, 4, "\xFF\xFF\xFF\xFF");
-  check_bytes_refused(photograph, {"65535 x 65535", "16384"});
+  expect_bytes_refused(photograph, {"65535 x 65535", "16384"});
 }
 
 TEST_CASE("a colour image of 16 bits is refused") {
   TemporaryFolder folder;
   write_png(folder / "depth.png", CountImage(6, 4, 1000));
-  check_refused([&] { read_color(folder / "depth.png"); }, "depth.png", {"16 bits", "8 bits"});
+  expect_refused([&] { read_color(folder / "depth.png"); }, "depth.png", {"16 bits", "8 bits"});
 }
 
 TEST_CASE("a colour image whose data are damaged is refused") {
   std::string image = png(40, 30);
   const std::size_t data = image.find("IDAT");
   for (std::size_t i = data + 4; i < data + 20; ++i) image[i] = '\x55';
-  check_bytes_refused(image, {"corrupt"});
+  expect_bytes_refused(image, {"corrupt"});
 
   std::string photograph = jpeg();
   photograph.erase(photograph.find("\xFF\xC0"), 2 + 17);
-  check_bytes_refused(photograph, {"JPEG without a frame header"});
+  expect_bytes_refused(photograph, {"JPEG without a frame header"});
 }
 
 }  // namespace vantage::test

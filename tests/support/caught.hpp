@@ -13,8 +13,8 @@ namespace vantage::test {
 /// Fails the test unless `function` throws an Error bad_input whose place ends in `where_end` and
 /// whose message has every one of `parts`.
 template <class Function>
-void check_refused(Function&& function, std::string_view where_end,
-                   std::initializer_list<std::string_view> parts) {
+void expect_refused(Function&& function, std::string_view where_end,
+                    std::initializer_list<std::string_view> parts) {
   try {
     function();
   } catch (const Error& error) {

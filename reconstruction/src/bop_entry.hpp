@@ -1,0 +1,76 @@
+#pragma once
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "vantage/raycore/error.hpp"
+
+namespace vantage::detail {
+
+/// A value as the user wrote it, cut off where it gets long.
+inline std::string shown(const nlohmann::json& value) {
+  std::size_t longest = 60;
+  std::string text = value.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  if (text.size() > longest) {
+    while ((text[longest] & 0xC0) == 0x80) --longest;  // not within a character of UTF-8
+    text = text.substr(0, longest) + "…";
+  }
+  return text;
+}
+
+/// One image's part of scene_camera.json; knows its place for the messages.
+class Entry {
+ public:
+  Entry(const std::filesystem::path& file, const std::string& id, const nlohmann::json& value)
+      : value_(value), where_(fmt::format("{}: \"{}\"", file.string(), id)) {
+    if (!value.is_object()) {
+      throw bad_input(where_, fmt::format("found {}; expected an object with cam_K and the other "
+                                          "keys of one image",
+                                          shown(value)));
+    }
+  }
+
+  const std::string& where() const { return where_; }
+  std::string where(const char* key) const { return where_ + ": " + key; }
+  bool has(const char* key) const { return value_.contains(key); }
+
+  template <std::size_t kCount>
+  std::array<double, kCount> numbers(const char* key) const {
+    const nlohmann::json& found = required(key);
+    const bool fits = found.is_array() && found.size() == kCount &&
+                      std::all_of(found.begin(), found.end(),
+                                  [](const nlohmann::json& number) { return number.is_number(); });
+    if (!fits) {
+      throw bad_input(where(key),
+                      fmt::format("found {}{}; expected {} numbers",
+                                  found.is_array() ? fmt::format("{} values, ", found.size()) : "",
+                                  shown(found), kCount));
+    }
+    return found.get<std::array<double, kCount>>();
+  }
+
+  double positive(const char* key) const {
+    const nlohmann::json& found = required(key);
+    if (!found.is_number() || !(found.get<double>() > 0)) {
+      throw bad_input(where(key), fmt::format("found {}; expected a number > 0", shown(found)));
+    }
+    return found.get<double>();
+  }
+
+ private:
+  const nlohmann::json& required(const char* key) const {
+    const auto found = value_.find(key);
+    if (found == value_.end()) throw bad_input(where(key), "missing; every image needs it");
+    return *found;
+  }
+
+  const nlohmann::json& value_;
+  std::string where_;
+};
+
+}  // namespace vantage::detail
