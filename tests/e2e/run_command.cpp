@@ -1,0 +1,60 @@
+#include "run_command.hpp"
+
+#include <sys/wait.h>
+
+#include <cstdlib>
+
+#include "vantage/raycore/image_io.hpp"
+#include "vantage/raycore/scene_builder.hpp"
+
+namespace vantage::test {
+
+namespace fs = std::filesystem;
+
+CommandResult run_vantage(const std::string& arguments, const std::string& prefix) {
+  const TemporaryFolder folder;
+  const std::string command = prefix + " '" VANTAGE_COMMAND "' " + arguments + " >'" +
+                              (folder / "out").string() + "' 2>'" + (folder / "err").string() +
+                              "' </dev/null";
+  const int status = std::system(command.c_str());
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_text(folder / "out"),
+          read_text(folder / "err")};
+}
+
+nlohmann::json scene_camera() {
+  // At (0, -0.6, 0.4), looking along +y and down by 30 degrees.
+  return {{"cam_K", {300, 0, 159.5, 0, 300, 119.5, 0, 0, 1}},
+          {"depth_scale", 1.0},
+          {"cam_R_w2c", {1, 0, 0, 0, -0.5, -0.8660254037844386, 0, 0.8660254037844386, -0.5}},
+          {"cam_t_w2c", {0, 46.41016151377539, 719.6152422706632}}};
+}
+
+void write_scene_camera(const fs::path& scene, const nlohmann::json& entry) {
+  const std::string text = nlohmann::json{{"7", entry}}.dump(1);
+  std::FILE* file = std::fopen((scene / "scene_camera.json").c_str(), "wb");
+  std::fwrite(text.data(), 1, text.size(), file);
+  std::fclose(file);
+}
+
+fs::path write_scene(const TemporaryFolder& folder) {
+  const fs::path scene = folder / "scene";
+  fs::create_directories(scene / "depth");
+  Eigen::Matrix3d R_w2c;
+  R_w2c << 1, 0, 0, 0, -0.5, -std::sqrt(0.75), 0, std::sqrt(0.75), -0.5;
+  const Pose T_cam_world = Pose::from_rotation(R_w2c, {0, 0.04641016151377539, 0.7196152422706632});
+  SceneBuilder builder;
+  builder.add_box(Box({-2, -2, -0.1}, {2, 3, 0}));
+  builder.add_box(Box({-0.08, 0, 0}, {0.08, 0.06, 0.15}));
+  const DepthImage depth = builder.build()->render_depth(
+      PinholeCamera({320, 240, 300, 300, 159.5, 119.5}, T_cam_world.inverse(), {0.1, 10}));
+  CountImage counts(320, 240);
+  for (std::size_t i = 0; i < counts.samples.size(); ++i) {
+    const float metres = depth.metres()[i];
+    if (metres > 0) counts.samples[i] = std::uint16_t(std::lround(1000 * metres));
+  }
+  write_png(scene / "depth/000007.png", counts);
+  write_scene_camera(scene, scene_camera());
+  return scene;
+}
+
+}  // namespace vantage::test

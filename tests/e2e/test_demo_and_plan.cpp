@@ -1,0 +1,144 @@
+#include <doctest/doctest.h>
+
+#include <algorithm>
+
+#include "run_command.hpp"
+#include "schema_check.hpp"
+#include "schemas.hpp"
+
+namespace vantage {
+namespace {
+
+using test::run_vantage;
+namespace fs = std::filesystem;
+
+nlohmann::json without_times(nlohmann::json plan) {
+  plan.erase("timing_ms");
+  return plan;
+}
+
+double revealed_share(const nlohmann::json& plan) {
+  return plan["best"]["newly_observed_volume_m3"].get<double>() /
+         plan["volumes_m3"]["shadow"].get<double>();
+}
+
+}  // namespace
+
+TEST_CASE("vantage demo plans, and draws what it found") {
+  const test::TemporaryFolder folder;
+  const auto result = run_vantage("demo -o '" + folder.path().string() + "'");
+  CHECK(result.exit_code == 0);
+  CHECK(result.out.find("next view  candidate") == 0);
+  CHECK(fs::file_size(folder / "overview.png") > 100'000);
+  CHECK(fs::file_size(folder / "view.png") > 20'000);
+  const auto plan = nlohmann::json::parse(test::read_text(folder / "plan.json"));
+  CHECK_NOTHROW(check_schema({"plan.json", plan}, plan_schema()));
+  CHECK(plan["candidates"].size() == 40);
+  CHECK(plan["best"]["T_world_cam"]["translation_m"][1].get<double>() > 0.2);  // behind the wall
+  CHECK(revealed_share(plan) > 0.8);
+  CHECK(revealed_share(plan) < 1);
+}
+
+TEST_CASE("vantage plan looks behind what stands in a depth image") {
+  const test::TemporaryFolder folder;
+  const fs::path scene = test::write_scene(folder), out = folder / "out/deep";
+  const auto result =
+      run_vantage("plan '" + scene.string() + "'" + test::kSceneArea + " -o '" + out.string() +
+                  "' --save-grid --save-surface --save-scene --json");
+  CAPTURE(result.err);
+  CHECK(result.exit_code == 0);
+  CHECK(result.out == test::read_text(out / "plan.json"));
+  const nlohmann::json plan = result.json();
+  CHECK_NOTHROW(check_schema({"plan.json", plan}, plan_schema()));
+  CHECK(plan["best"]["T_world_cam"]["translation_m"][1].get<double>() > 0.3);
+  CHECK(plan["inputs"].size() == 2);
+  for (const char* name : {"grid.vdb", "shadow.ply", "scene.glb"}) CHECK(fs::exists(out / name));
+  // Nothing temporary is left behind.
+  CHECK(std::distance(fs::directory_iterator(out), fs::directory_iterator()) == 4);
+}
+
+TEST_CASE("the plan is the same at 1, 2, 3 and 8 threads") {
+  const test::TemporaryFolder folder;
+  const std::string plan = "plan '" + test::write_scene(folder).string() + "'" + test::kSceneArea;
+  const nlohmann::json first = without_times(run_vantage(plan + " --json --threads 1").json());
+  for (const char* threads : {"2", "3", "8"}) {
+    CHECK(without_times(run_vantage(plan + " --json --threads " + threads).json()) == first);
+  }
+}
+
+TEST_CASE("a workcell file adds known objects, and the command line wins over it") {
+  const test::TemporaryFolder folder;
+  const fs::path scene = test::write_scene(folder);
+  const fs::path cell =
+      folder.write("cell.yaml",
+                   "work_area: {min_m: [-0.2, -0.1, 0.02], max_m: [0.2, 0.3, 0.22]}\n"
+                   "voxel_size_m: 0.02\n"
+                   "known_objects:\n"
+                   "  - name: box\n"
+                   "    box: {min_m: [-0.08, 0, 0], max_m: [0.08, 0.06, 0.15]}\n");
+  const std::string plan =
+      "plan '" + scene.string() + "' --workcell '" + cell.string() + "' --json";
+  const nlohmann::json coarse = run_vantage(plan).json();
+  CHECK(coarse["voxel_size_m"] == 0.02);
+  CHECK(coarse["inputs"].size() == 3);
+  const nlohmann::json fine = run_vantage(plan + " --voxel-size 0.01").json();
+  CHECK(fine["voxel_size_m"] == 0.01);
+  CHECK(fine["volumes_m3"]["occupied"].get<double>() >= 0.16 * 0.06 * 0.13 * 0.99);
+}
+
+TEST_CASE("a deadline gives what is there by then, and exit code 5") {
+  const test::TemporaryFolder folder;
+  const std::string plan = "plan '" + test::write_scene(folder).string() + "'" + test::kSceneArea;
+  const auto result = run_vantage(plan + " --json --deadline-ms 0");
+  CHECK(result.exit_code == 5);
+  CHECK(result.json()["partial"] == true);
+  CHECK(result.json()["best"].is_null());
+  CHECK_NOTHROW(check_schema({"plan.json", result.json()}, plan_schema()));
+}
+
+TEST_CASE("Ctrl-C gives exit code 130 and the partial plan") {
+  const test::TemporaryFolder folder;
+  const std::string out = (folder / "out").string();
+  const auto result = run_vantage(
+      "plan '" + test::write_scene(folder).string() +
+          "' --work-area -0.5 -0.5 0.01 0.5 0.5 0.5 --voxel-size 0.0012 -o '" + out + "'",
+      "timeout --preserve-status -s INT 1");
+  CHECK(result.exit_code == 130);
+  const auto plan = nlohmann::json::parse(test::read_text(folder / "out/plan.json"));
+  CHECK(plan["partial"] == true);
+}
+
+TEST_CASE("with nothing in reach: exit code 4, and every candidate says why") {
+  const test::TemporaryFolder folder;
+  const fs::path scene = test::write_scene(folder);
+  const fs::path cell =
+      folder.write("cell.yaml",
+                   "work_area: {min_m: [-0.2, -0.1, 0.02], max_m: [0.2, 0.3, 0.22]}\n"
+                   "reach: {base_m: [5, 0, 0], max_m: 0.9}\n");
+  const auto result =
+      run_vantage("plan '" + scene.string() + "' --workcell '" + cell.string() + "' --json");
+  CHECK(result.exit_code == 4);
+  CHECK(result.json()["best"].is_null());
+  for (const auto& candidate : result.json()["candidates"]) {
+    CHECK(candidate["feasible"] == false);
+    CHECK(candidate["rejected"] == "out of reach");
+  }
+  const auto text = run_vantage("plan '" + scene.string() + "' --workcell '" + cell.string() + "'");
+  CHECK(text.out.find("no feasible view\nrejected   40 out of reach\n") == 0);
+}
+
+TEST_CASE("a real Kinect recording: the suggested camera looks at the back of what stands there") {
+  const auto scene = test::recording("osd_learn0");
+  if (!scene) return;
+  const auto result = run_vantage("plan '" + scene->string() +
+                                  "' --work-area -0.25 -0.15 0.005 0.25 0.35 0.27 "
+                                  "--voxel-size 0.005 --json");
+  CHECK(result.exit_code == 0);
+  const nlohmann::json plan = result.json();
+  // The recording's camera stands at y = -0.49 m: the other side is y > 0.
+  CHECK(plan["best"]["T_world_cam"]["translation_m"][1].get<double>() > 0.5);
+  CHECK(revealed_share(plan) > 0.9);
+  CHECK(plan["volumes_m3"]["occupied"].get<double>() > 0.0003);
+}
+
+}  // namespace vantage
