@@ -14,11 +14,7 @@ std::string text(const Eigen::Vector3f& p) {
 }
 
 bool in_reach(const Eigen::Vector3f& p) {
-  return p.allFinite() && p.cwiseAbs().maxCoeff() <= kFarthestCoordinate;
-}
-
-bool valid(const Eigen::Vector3f& o, const Eigen::Vector3f& d) {
-  return valid_ray(o.x(), o.y(), o.z(), d.x(), d.y(), d.z());
+  return detail::in_reach(p.x(), p.y(), p.z());
 }
 
 }  // namespace
@@ -30,10 +26,11 @@ void check_batch_size(const char* what, std::size_t size, std::size_t expected) 
 
 void refuse_first_segment(PointsView from, const PointLanes& to) {
   for (std::size_t i = 0; i < from.size; ++i) {
-    if (valid(from[i], to[i] - from[i])) continue;
-    const bool zero = in_reach(from[i]) && from[i] == to[i];
+    const Eigen::Vector3f o = from[i], t = to[i];
+    if (valid_segment(o.x(), o.y(), o.z(), t.x(), t.y(), t.z())) continue;
+    const bool zero = in_reach(o) && o == t;
     throw bad_input(fmt::format("segment {}", i),
-                    fmt::format("it goes from {} to {}; expected {}", text(from[i]), text(to[i]),
+                    fmt::format("it goes from {} to {}; expected {}", text(o), text(t),
                                 zero ? "two different points"
                                      : "finite coordinates within 1e9 m of the origin"));
   }
@@ -42,11 +39,11 @@ void refuse_first_segment(PointsView from, const PointLanes& to) {
 
 void refuse_first_ray(const PointLanes& origins, PointsView directions) {
   for (std::size_t i = 0; i < directions.size; ++i) {
-    if (valid(origins[i], directions[i])) continue;
-    const bool zero = in_reach(origins[i]) && directions[i].isZero(0);
+    const Eigen::Vector3f o = origins[i], d = directions[i];
+    if (valid_ray(o.x(), o.y(), o.z(), d.x(), d.y(), d.z())) continue;
+    const bool zero = in_reach(o) && d.isZero(0);
     throw bad_input(fmt::format("ray {}", i),
-                    fmt::format("its origin is {}, its direction {}; expected {}", text(origins[i]),
-                                text(directions[i]),
+                    fmt::format("its origin is {}, its direction {}; expected {}", text(o), text(d),
                                 zero ? "a direction that is not zero"
                                      : "finite coordinates within 1e9 m of the origin"));
   }

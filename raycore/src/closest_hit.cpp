@@ -2,12 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <limits>
 
 #include "batch.hpp"
+#include "hit_packet.hpp"
 #include "multiversion.hpp"
-#include "packet.hpp"
 #include "pixel_order.hpp"
 #include "scene_impl.hpp"
 #include "vantage/raycore/error.hpp"
@@ -24,70 +23,6 @@ void Hits::resize(std::size_t size) {
 namespace detail {
 namespace {
 
-struct RayLanes {
-  const float *org_x, *org_y, *org_z;
-  const float *dir_x, *dir_y, *dir_z;
-};
-
-template <std::size_t kOriginStride>
-[[gnu::always_inline]] inline bool fill(const PacketJob& job, const RayLanes& r, std::size_t first,
-                                        std::size_t count, RTCRayHit16& packet, int* valid) {
-  int refused = 0;
-  for (std::size_t lane = 0; lane < kPacketWidth; ++lane) {
-    const std::size_t i = first + std::min(lane, count - 1);
-    const float ox = r.org_x[i * kOriginStride];
-    const float oy = r.org_y[i * kOriginStride];
-    const float oz = r.org_z[i * kOriginStride];
-    const float dx = r.dir_x[i], dy = r.dir_y[i], dz = r.dir_z[i];
-    RTCRay16& rays = packet.ray;
-    rays.org_x[lane] = ox, rays.org_y[lane] = oy, rays.org_z[lane] = oz;
-    rays.dir_x[lane] = dx, rays.dir_y[lane] = dy, rays.dir_z[lane] = dz;
-    rays.tfar[lane] = job.t_far;
-    packet.hit.geomID[lane] = RTC_INVALID_GEOMETRY_ID;
-    packet.hit.instID[0][lane] = RTC_INVALID_GEOMETRY_ID;
-    const int ok = valid_ray(ox, oy, oz, dx, dy, dz);
-    refused |= 1 - ok;
-    valid[lane] = -(ok & int(lane < count));
-  }
-  return refused == 0;
-}
-
-struct HitLanes {
-  float *t, *u, *v;
-  ObjectId* object;
-  std::uint32_t* triangle;
-  float *normal_x, *normal_y, *normal_z;
-
-  explicit HitLanes(Hits& h)
-      : t(h.t.data()),
-        u(h.u.data()),
-        v(h.v.data()),
-        object(h.object.data()),
-        triangle(h.triangle.data()),
-        normal_x(h.normal.x.data()),
-        normal_y(h.normal.y.data()),
-        normal_z(h.normal.z.data()) {}
-};
-
-[[gnu::always_inline]] inline void store(const RTCRayHit16& packet, std::size_t first,
-                                         std::size_t count, const HitLanes& out) {
-  for (std::size_t lane = 0; lane < count; ++lane) {
-    const bool hit = packet.hit.geomID[lane] != RTC_INVALID_GEOMETRY_ID;
-    const bool instance = packet.hit.instID[0][lane] != RTC_INVALID_GEOMETRY_ID;
-    const std::size_t i = first + lane;
-    const float nx = packet.hit.Ng_x[lane], ny = packet.hit.Ng_y[lane], nz = packet.hit.Ng_z[lane];
-    const float scale = hit ? 1 / std::sqrt(nx * nx + ny * ny + nz * nz) : 0;
-    out.t[i] = hit ? packet.ray.tfar[lane] : std::numeric_limits<float>::infinity();
-    out.u[i] = hit ? packet.hit.u[lane] : 0;
-    out.v[i] = hit ? packet.hit.v[lane] : 0;
-    out.object[i] = instance ? packet.hit.instID[0][lane] : packet.hit.geomID[lane];
-    out.triangle[i] = hit ? packet.hit.primID[lane] : 0;
-    out.normal_x[i] = hit ? nx * scale : 0;
-    out.normal_y[i] = hit ? ny * scale : 0;
-    out.normal_z[i] = hit ? nz * scale : 0;
-  }
-}
-
 template <std::size_t kOriginStride>
 [[gnu::always_inline]] inline bool trace(const PacketJob& job, const RayLanes& rays,
                                          std::size_t first, std::size_t last, const HitLanes& out) {
@@ -96,11 +31,18 @@ template <std::size_t kOriginStride>
   alignas(64) int valid[kPacketWidth];
   prepare(packet.ray, job);
   bool ok = true;
-  for (std::size_t i = first; i < last; i += kPacketWidth) {
-    const std::size_t count = std::min(kPacketWidth, last - i);
-    ok &= fill<kOriginStride>(job, rays, i, count, packet, valid);
+  std::size_t i = first;
+  for (; i + kPacketWidth <= last; i += kPacketWidth) {
+    ok &= fill<kOriginStride, true>(job, rays, i, kPacketWidth, packet, valid);
     context.intersect16(valid, job.scene, &packet);
-    store(packet, i, count, out);
+    finish(packet);
+    store(packet, i, kPacketWidth, out);
+  }
+  if (i < last) {
+    ok &= fill<kOriginStride, false>(job, rays, i, last - i, packet, valid);
+    context.intersect16(valid, job.scene, &packet);
+    finish(packet);
+    store(packet, i, last - i, out);
   }
   return ok;
 }
@@ -118,9 +60,10 @@ bool trace_from_point(const PacketJob& job, const RayLanes& rays, std::size_t fi
 }
 
 /// Embree gives an instance's normal in the instance's frame.
-void turn_instance_normals(const SceneImpl& scene, Hits& hits) {
+void turn_instance_normals(const SceneImpl& scene, std::size_t first, std::size_t last,
+                           Hits& hits) {
   if (!scene.has_instances) return;
-  for (std::size_t i = 0; i < hits.size(); ++i) {
+  for (std::size_t i = first; i < last; ++i) {
     if (hits.hit(i)) {
       hits.normal.set(i, scene.normal_to_world[hits.object[i]] * hits.normal[i]);
     }
@@ -136,10 +79,11 @@ void closest_hits_batch(const SceneImpl& scene, const PointLanes& origins, Point
   const HitLanes out(hits);
   const auto kernel = origins.stride == 0 ? trace_from_point : trace_rays;
   const bool ok = for_each_block(directions.size, [&](std::size_t first, std::size_t last) {
-    return kernel(job, lanes, first, last, out);
+    const bool block_ok = kernel(job, lanes, first, last, out);
+    turn_instance_normals(scene, first, last, hits);
+    return block_ok;
   });
   if (!ok) refuse_first_ray(origins, directions);
-  turn_instance_normals(scene, hits);
 }
 
 }  // namespace
@@ -182,9 +126,10 @@ std::optional<Hit> Scene::closest_hit(const Ray& ray) const {
 
   const bool instance = query.hit.instID[0] != RTC_INVALID_GEOMETRY_ID;
   const ObjectId object = instance ? query.hit.instID[0] : query.hit.geomID;
-  const Eigen::Vector3f normal(query.hit.Ng_x, query.hit.Ng_y, query.hit.Ng_z);
+  const Eigen::Vector3f normal =
+      Eigen::Vector3f(query.hit.Ng_x, query.hit.Ng_y, query.hit.Ng_z).stableNormalized();
   return Hit{query.ray.tfar, object,      query.hit.primID,
-             query.hit.u,    query.hit.v, impl_->normal_to_world[object] * normal.normalized()};
+             query.hit.u,    query.hit.v, impl_->normal_to_world[object] * normal};
 }
 
 DepthImage Scene::render_depth(const PinholeCamera& camera) const {

@@ -26,13 +26,13 @@ template <std::size_t kToStride, bool kFull>
   for (std::size_t lane = 0; lane < kPacketWidth; ++lane) {
     const std::size_t i = first + (kFull ? lane : std::min(lane, count - 1));
     const float ox = s.from_x[i], oy = s.from_y[i], oz = s.from_z[i];
-    const float dx = s.to_x[i * kToStride] - ox;
-    const float dy = s.to_y[i * kToStride] - oy;
-    const float dz = s.to_z[i * kToStride] - oz;
+    const float tx = s.to_x[i * kToStride];
+    const float ty = s.to_y[i * kToStride];
+    const float tz = s.to_z[i * kToStride];
     rays.org_x[lane] = ox, rays.org_y[lane] = oy, rays.org_z[lane] = oz;
-    rays.dir_x[lane] = dx, rays.dir_y[lane] = dy, rays.dir_z[lane] = dz;
+    rays.dir_x[lane] = tx - ox, rays.dir_y[lane] = ty - oy, rays.dir_z[lane] = tz - oz;
     rays.tfar[lane] = 1;
-    const int ok = valid_ray(ox, oy, oz, dx, dy, dz);
+    const int ok = valid_segment(ox, oy, oz, tx, ty, tz);
     refused |= 1 - ok;
     valid[lane] = kFull ? -ok : -(ok & int(lane < count));
   }
@@ -89,11 +89,10 @@ void occluded_batch(const SceneImpl& scene, PointsView from, const PointLanes& t
 }  // namespace detail
 
 bool Scene::occluded(const Eigen::Vector3f& from, const Eigen::Vector3f& to) const {
-  const Eigen::Vector3f direction = to - from;
-  if (!detail::valid_ray(from.x(), from.y(), from.z(), direction.x(), direction.y(),
-                         direction.z())) {
+  if (!detail::valid_segment(from.x(), from.y(), from.z(), to.x(), to.y(), to.z())) {
     detail::refuse_first_segment({&from.x(), &from.y(), &from.z(), 1}, detail::PointLanes(to, 1));
   }
+  const Eigen::Vector3f direction = to - from;
   RTCRay ray{};
   ray.org_x = from.x(), ray.org_y = from.y(), ray.org_z = from.z();
   ray.dir_x = direction.x(), ray.dir_y = direction.y(), ray.dir_z = direction.z();

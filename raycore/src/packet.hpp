@@ -27,12 +27,20 @@ struct PointLanes {
   Eigen::Vector3f operator[](std::size_t i) const { return view[i * stride]; }
 };
 
-/// Whether Embree may see a ray. Written so that NaN fails.
+/// Whether a point is near enough. Written so that NaN fails, and without branches.
+inline bool in_reach(float x, float y, float z) {
+  return (std::fabs(x) <= kFarthestCoordinate) & (std::fabs(y) <= kFarthestCoordinate) &
+         (std::fabs(z) <= kFarthestCoordinate);
+}
+
+/// Whether Embree may see a ray.
 inline bool valid_ray(float ox, float oy, float oz, float dx, float dy, float dz) {
-  const float far = kFarthestCoordinate;
-  return (std::fabs(ox) <= far) & (std::fabs(oy) <= far) & (std::fabs(oz) <= far) &
-         (std::fabs(dx) <= 2 * far) & (std::fabs(dy) <= 2 * far) & (std::fabs(dz) <= 2 * far) &
-         ((dx != 0) | (dy != 0) | (dz != 0));
+  return in_reach(ox, oy, oz) & in_reach(dx, dy, dz) & ((dx != 0) | (dy != 0) | (dz != 0));
+}
+
+/// Whether Embree may see the segment between two points.
+inline bool valid_segment(float ox, float oy, float oz, float tx, float ty, float tz) {
+  return in_reach(ox, oy, oz) & in_reach(tx, ty, tz) & ((tx != ox) | (ty != oy) | (tz != oz));
 }
 
 /// What all rays of a query share.
