@@ -29,7 +29,7 @@ template <std::size_t kOriginStride>
   QueryContext context(job.coherent);
   alignas(64) RTCRayHit16 packet{};
   alignas(64) int valid[kPacketWidth];
-  prepare(packet.ray, job);
+  prepare(packet.ray);
   bool ok = true;
   std::size_t i = first;
   for (; i + kPacketWidth <= last; i += kPacketWidth) {
@@ -71,9 +71,9 @@ void turn_instance_normals(const SceneImpl& scene, std::size_t first, std::size_
 }
 
 void closest_hits_batch(const SceneImpl& scene, const PointLanes& origins, PointsView directions,
-                        float t_near, float t_far, bool coherent, Hits& hits) {
+                        float t_far, bool coherent, Hits& hits) {
   hits.resize(directions.size);
-  const PacketJob job{scene.top, scene.use_coherent(coherent), t_near, t_far};
+  const PacketJob job{scene.top, scene.use_coherent(coherent), t_far};
   const RayLanes lanes{origins.view.x, origins.view.y, origins.view.z,
                        directions.x,   directions.y,   directions.z};
   const HitLanes out(hits);
@@ -92,14 +92,14 @@ void closest_hits_batch(const SceneImpl& scene, const PointLanes& origins, Point
 void Scene::closest_hits(PointsView origins, PointsView directions, Hits& hits,
                          RayOrder order) const {
   detail::check_batch_size("the array of origins", origins.size, directions.size);
-  detail::closest_hits_batch(*impl_, detail::PointLanes(origins), directions, 0,
+  detail::closest_hits_batch(*impl_, detail::PointLanes(origins), directions,
                              std::numeric_limits<float>::infinity(), order == RayOrder::coherent,
                              hits);
 }
 
 void Scene::closest_hits(const Eigen::Vector3f& origin, PointsView directions, Hits& hits,
                          RayOrder order) const {
-  detail::closest_hits_batch(*impl_, detail::PointLanes(origin, directions.size), directions, 0,
+  detail::closest_hits_batch(*impl_, detail::PointLanes(origin, directions.size), directions,
                              std::numeric_limits<float>::infinity(), order == RayOrder::coherent,
                              hits);
 }
@@ -136,6 +136,13 @@ DepthImage Scene::render_depth(const PinholeCamera& camera) const {
   const Intrinsics& k = camera.intrinsics();
   DepthImage depth(k.width, k.height);
   const Eigen::Vector3f origin = camera.centre().cast<float>();
+  if (!detail::in_reach(origin.x(), origin.y(), origin.z())) {
+    throw bad_input("camera",
+                    fmt::format("its centre is [{}, {}, {}]; expected coordinates within "
+                                "1e9 m of the origin",
+                                camera.centre().x(), camera.centre().y(), camera.centre().z()));
+  }
+  const float near_m = float(camera.range().near_m), far_m = float(camera.range().far_m);
   const std::size_t bands = detail::band_count(k.height);
   tbb::parallel_for(std::size_t(0), bands, [&](std::size_t band) {
     const std::vector<detail::Pixel> pixels = detail::pixels_of_band(k, int(band));
@@ -143,12 +150,13 @@ DepthImage Scene::render_depth(const PinholeCamera& camera) const {
     for (std::size_t i = 0; i < pixels.size(); ++i) {
       directions.set(i, camera.pixel_ray(pixels[i].u, pixels[i].v).direction.cast<float>());
     }
-    Hits hits;  // t is the depth: that is how pixel rays are scaled
-    detail::closest_hits_batch(*impl_, detail::PointLanes(origin, pixels.size()), directions,
-                               float(camera.range().near_m), float(camera.range().far_m), true,
-                               hits);
+    // t is the depth: that is how pixel rays are scaled. Rays start at the camera, not at the near
+    // depth: what stands too near hides what is behind it.
+    Hits hits;
+    detail::closest_hits_batch(*impl_, detail::PointLanes(origin, pixels.size()), directions, far_m,
+                               true, hits);
     for (std::size_t i = 0; i < pixels.size(); ++i) {
-      if (hits.hit(i)) depth.set(pixels[i].u, pixels[i].v, hits.t[i]);
+      if (hits.hit(i) && hits.t[i] >= near_m) depth.set(pixels[i].u, pixels[i].v, hits.t[i]);
     }
   });
   return depth;

@@ -48,12 +48,10 @@ DepthImage DepthImage::from_counts(const CountImage& counts, double depth_scale_
         std::string(where),
         fmt::format("the depth scale is {} mm; expected a number above 0", depth_scale_mm));
   }
-  DepthImage depth(counts.width, counts.height);
   const double scale_m = depth_scale_mm / 1000;
-  for (std::size_t i = 0; i < counts.samples.size(); ++i) {
-    if (counts.samples[i] != 0) depth.metres_[i] = float(counts.samples[i] * scale_m);
-  }
-  return depth;
+  std::vector<float> metres(counts.samples.size());
+  for (std::size_t i = 0; i < metres.size(); ++i) metres[i] = float(counts.samples[i] * scale_m);
+  return {counts.width, counts.height, std::move(metres), where};
 }
 
 PosedDepth::PosedDepth(const PinholeCamera& cam, std::shared_ptr<const DepthImage> image,

@@ -46,7 +46,7 @@ template <std::size_t kToStride>
   QueryContext context(job.coherent);
   alignas(64) RTCRay16 rays;
   alignas(64) int valid[kPacketWidth];
-  prepare(rays, job);
+  prepare(rays);
   bool ok = true;
   std::size_t i = first;
   for (; i + kPacketWidth <= last; i += kPacketWidth) {
@@ -76,7 +76,7 @@ bool trace_to_point(const PacketJob& job, const SegmentLanes& s, std::size_t fir
 
 void occluded_batch(const SceneImpl& scene, PointsView from, const PointLanes& to,
                     std::span<std::uint8_t> result, RayOrder order) {
-  const PacketJob job{scene.top, scene.use_coherent(order == RayOrder::coherent), 0, 1};
+  const PacketJob job{scene.top, scene.use_coherent(order == RayOrder::coherent), 1};
   const SegmentLanes lanes{from.x, from.y, from.z, to.view.x, to.view.y, to.view.z};
   const auto kernel = to.stride == 0 ? trace_to_point : trace_pairs;
   const bool ok = for_each_block(from.size, [&](std::size_t first, std::size_t last) {

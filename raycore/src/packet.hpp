@@ -47,14 +47,13 @@ inline bool valid_segment(float ox, float oy, float oz, float tx, float ty, floa
 struct PacketJob {
   RTCScene scene;
   bool coherent;
-  float t_near;
   float t_far;
 };
 
 /// Sets the fields of a packet that no query changes.
-inline void prepare(RTCRay16& rays, const PacketJob& job) {
+inline void prepare(RTCRay16& rays) {
   for (std::size_t lane = 0; lane < kPacketWidth; ++lane) {
-    rays.tnear[lane] = job.t_near;
+    rays.tnear[lane] = 0;
     rays.time[lane] = 0;
     rays.mask[lane] = kAllMasks;
     rays.id[lane] = 0;

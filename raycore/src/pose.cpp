@@ -32,7 +32,7 @@ Pose Pose::from_rotation(const Eigen::Matrix3d& rotation, const Eigen::Vector3d&
   if (!rotation.allFinite()) throw bad_input(std::string(where), "the rotation is not finite");
   const double off =
       (rotation.transpose() * rotation - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
-  if (off > kTolerance) {
+  if (!(off <= kTolerance)) {
     throw bad_input(std::string(where),
                     fmt::format("this is no rotation: RᵀR differs from the identity by {:.3g}; "
                                 "expected an orthonormal 3×3 matrix, row by row",
@@ -67,9 +67,12 @@ Pose Pose::from_translation(const Eigen::Vector3d& translation) {
 Pose Pose::looking_at(const Eigen::Vector3d& eye, const Eigen::Vector3d& target) {
   check_translation(eye, "eye");
   check_translation(target, "target");
-  const double distance = (target - eye).norm();
-  if (!(distance > 0)) throw bad_input("target", "it coincides with the eye: no direction to look");
-  const Eigen::Vector3d forward = (target - eye) / distance;
+  const Eigen::Vector3d towards = target - eye;
+  if (towards.isZero(0)) {
+    throw bad_input("target", "it coincides with the eye: no direction to look");
+  }
+  if (!towards.allFinite()) throw bad_input("target", "it is too far from the eye");
+  const Eigen::Vector3d forward = towards.stableNormalized();
   const bool along_z = forward.head<2>().norm() < 1e-9;
   const Eigen::Vector3d up = along_z ? Eigen::Vector3d::UnitY() : Eigen::Vector3d::UnitZ();
   Eigen::Matrix3d axes;  // x right, y down, z forward

@@ -1,10 +1,13 @@
 #include "vantage/raycore/scene_builder.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cstring>
 #include <map>
 #include <utility>
 
+#include "coordinates.hpp"
 #include "scene_impl.hpp"
 #include "vantage/raycore/error.hpp"
 
@@ -107,13 +110,19 @@ ObjectId SceneBuilder::add_box(const Box& box, const Pose& T_world_box) {
 ObjectId SceneBuilder::add_instance(std::shared_ptr<const TriangleMesh> mesh,
                                     const Pose& T_world_mesh) {
   if (mesh == nullptr) throw bad_input("scene", "an instance without a mesh (null pointer)");
+  const Eigen::Vector3d& place = T_world_mesh.translation();
+  if (!detail::is_coordinate(place)) {
+    throw bad_input("scene", fmt::format("an instance lies at {} m; expected coordinates below "
+                                         "{:g} m (is the unit right?)",
+                                         detail::to_text(place), detail::kMaxCoordinate));
+  }
   const Eigen::Matrix3f rotation = T_world_mesh.rotation().cast<float>();
   const ObjectId id = impl_->next_object(rotation);
   if (mesh->empty()) return id;
 
   detail::SceneImpl& scene = *impl_->scene;
   Eigen::Matrix<float, 3, 4> transform;
-  transform << rotation, T_world_mesh.translation().cast<float>();
+  transform << rotation, place.cast<float>();
   RTCGeometry geometry = rtcNewGeometry(scene.device, RTC_GEOMETRY_TYPE_INSTANCE);
   rtcSetGeometryInstancedScene(geometry, impl_->shared_scene(mesh));
   rtcSetGeometryTimeStepCount(geometry, 1);
