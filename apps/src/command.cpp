@@ -14,6 +14,9 @@ void CommonOptions::add_to(CLI::App& verb) {
       ->needs(folder);
   verb.add_flag("--save-scene", output.save_scene, "Write scene.glb: voxels and cameras in 3D")
       ->needs(folder);
+  verb.add_option("--picture-width", output.picture_width, "Width of overview.png, pixels")
+      ->check(CLI::Range(64, 8192))
+      ->capture_default_str();
   verb.add_option("--threads", threads, "Threads to use (0: all)")->check(CLI::Range(0, 1024));
   verb.add_option("--deadline-ms", deadline_ms,
                   "Return the best view found after this time (exit code 5 if not all were scored)")

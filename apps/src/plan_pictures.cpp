@@ -27,7 +27,6 @@ const Eigen::Vector3f kFloor(0.90f, 0.90f, 0.91f);
 constexpr const char* kRevealedName = "revealed";
 /// How much of the light the revealed voxels keep back: one sees what stands inside them.
 constexpr double kRevealedOpacity = 0.4;
-constexpr int kOverviewWidth = 1280, kOverviewHeight = 800;
 
 /// Sizes of what is drawn follow the work area.
 double scale_of(const Plan& plan) {
@@ -201,7 +200,8 @@ double overview_azimuth(const Plan& plan, const WorldModel& world) {
 
 /// A camera far enough away for a calm perspective; focal length and principal point are such that
 /// the points fill the picture.
-PinholeCamera overview_camera(const Plan& plan, const WorldModel& world) {
+PinholeCamera overview_camera(const Plan& plan, const WorldModel& world, int width) {
+  const int height = std::max(1, width * 5 / 8);
   const std::vector<Eigen::Vector3d> points = points_of_interest(plan, world);
   Eigen::Vector3d low = points.front(), high = points.front();
   for (const Eigen::Vector3d& p : points) low = low.cwiseMin(p), high = high.cwiseMax(p);
@@ -211,28 +211,27 @@ PinholeCamera overview_camera(const Plan& plan, const WorldModel& world) {
                                   std::cos(elevation) * std::sin(azimuth), std::sin(elevation));
   const Pose pose = Pose::looking_at(centre + 1.5 * (high - low).norm() * direction, centre);
 
-  const PinholeCamera unit({kOverviewWidth, kOverviewHeight, 1, 1, 0, 0}, pose);
+  const PinholeCamera unit({width, height, 1, 1, 0, 0}, pose);
   Eigen::Array2d least(1e9, 1e9), most(-1e9, -1e9);
   for (const Eigen::Vector3d& p : points) {
     const std::optional<ImagePoint> q = unit.project(p);
     least = least.min(Eigen::Array2d(q->u, q->v)), most = most.max(Eigen::Array2d(q->u, q->v));
   }
-  const Eigen::Array2d size(kOverviewWidth, kOverviewHeight);
+  const Eigen::Array2d size(width, height);
   const double focal = (0.93 * size / (most - least)).minCoeff();
   const Eigen::Array2d principal = 0.5 * size - focal * 0.5 * (least + most);
-  return PinholeCamera(
-      {kOverviewWidth, kOverviewHeight, focal, focal, principal.x(), principal.y()}, pose);
+  return PinholeCamera({width, height, focal, focal, principal.x(), principal.y()}, pose);
 }
 
 }  // namespace
 
 void write_overview(const std::filesystem::path& path, const Plan& plan, const WorldModel& world,
-                    const StopToken& stop) {
+                    int width, const StopToken& stop) {
   Stage stage(plan);
   stage.add_voxels();
   stage.add_cameras(world);
   stage.add_floor();
-  stage.draw(path, overview_camera(plan, world), stop);
+  stage.draw(path, overview_camera(plan, world, width), stop);
 }
 
 void write_suggested_view(const std::filesystem::path& path, const Plan& plan,

@@ -9,11 +9,11 @@
 namespace vantage {
 
 /// Pictures of a plan that has a grid. Occupied voxels are green, shadow red, what the suggested
-/// view reveals cyan, the given cameras grey, the suggested one red.
+/// view reveals cyan and half transparent, the given cameras grey, the suggested one red.
 
-/// The work area from outside, with all cameras and their frusta.
+/// The work area from outside, with all cameras and their frusta; `width` × 5/8 `width` pixels.
 void write_overview(const std::filesystem::path& path, const Plan& plan, const WorldModel& world,
-                    const StopToken& stop = {});
+                    int width, const StopToken& stop = {});
 
 /// What the suggested camera would see. Needs a plan with a best view.
 void write_suggested_view(const std::filesystem::path& path, const Plan& plan,

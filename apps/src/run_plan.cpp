@@ -37,7 +37,7 @@ void write_extras(const Plan& plan, const WorldModel& world, const OutputOptions
   write(output.save_scene, "scene.glb",
         [&](const fs::path& p) { write_scene_model(p, plan, world); });
   write(output.pictures, "overview.png",
-        [&](const fs::path& p) { write_overview(p, plan, world, stop); });
+        [&](const fs::path& p) { write_overview(p, plan, world, output.picture_width, stop); });
   write(output.pictures && plan.best, "view.png",
         [&](const fs::path& p) { write_suggested_view(p, plan, stop); });
 }

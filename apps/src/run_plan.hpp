@@ -18,6 +18,7 @@ struct OutputOptions {
   bool save_surface = false;          ///< shadow.ply: the shadow's surface
   bool save_scene = false;            ///< scene.glb: everything, for a viewer
   bool pictures = false;              ///< overview.png and view.png
+  int picture_width = 1280;           ///< of overview.png, pixels
 };
 
 /// How it is to be computed.

@@ -2,8 +2,10 @@
 #include <cmath>
 #include <cstdio>
 #include <exception>
+#include <vantage/planner/plan.hpp>
 #include <vantage/raycore/error.hpp>
 #include <vantage/raycore/scene_builder.hpp>
+#include <vantage/reconstruction/bop_scene.hpp>
 
 namespace {
 
@@ -41,11 +43,40 @@ bool refuse_a_flat_box() {
   return expect(false, "a box without volume is refused");
 }
 
+/// Grid, scorer and plan: through volume and planner, without a line of OpenVDB or TBB here.
+bool plan_a_view_behind_a_wall() {
+  const vantage::Intrinsics intrinsics{64, 48, 60, 60, 31.5, 23.5};
+  vantage::WorldModel world;
+  world.objects.push_back(
+      {"wall",
+       std::make_shared<const vantage::TriangleMesh>(
+           vantage::TriangleMesh::from_box({{-0.1, -0.01, 0}, {0.1, 0.01, 0.1}})),
+       {}});
+  world.cameras.push_back(
+      {"front",
+       vantage::PinholeCamera(intrinsics, vantage::Pose::looking_at({0, -0.5, 0.2}, {0, 0, 0.05})),
+       nullptr});
+  const vantage::Plan plan = vantage::plan_next_view(
+      world, {.work_area = {{-0.1, -0.1, 0}, {0.1, 0.1, 0.1}}, .intrinsics = intrinsics});
+  return expect(plan.best && *plan.newly_observed_volume_m3(*plan.best) > 0,
+                "the next view reveals something behind the wall");
+}
+
+bool refuse_a_missing_recording() {
+  try {
+    vantage::load_bop_scene("no such folder");
+  } catch (const vantage::Error& error) {
+    return expect(error.code() == vantage::ErrorCode::bad_input, error.what());
+  }
+  return expect(false, "a recording that is not there is refused");
+}
+
 }  // namespace
 
 int main() {
   try {
-    const bool good = look_at_a_box() & refuse_a_flat_box();
+    const bool good = look_at_a_box() & refuse_a_flat_box() & plan_a_view_behind_a_wall() &
+                      refuse_a_missing_recording();
     return good ? 0 : 1;
   } catch (const std::exception& error) {
     std::printf("WRONG: %s\n", error.what());
