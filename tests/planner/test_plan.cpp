@@ -90,7 +90,7 @@ TEST_CASE("shadow hides nothing, measured voxels do") {
   WorldModel world = wall();
   SceneBuilder truth;
   truth.add_mesh(*world.objects.front().mesh);
-  truth.add_box(Box({-2, -2, -0.1}, {2, 2, 0}));    // the floor, and a wall behind everything:
+  truth.add_box(Box({-2, -2, -0.1}, {2, 2, 0}));     // the floor, and a wall behind everything:
   truth.add_box(Box({-2, 0.6, -0.1}, {2, 0.7, 2}));  // each pixel has a depth
   world.cameras.front().depth =
       std::make_shared<DepthImage>(truth.build()->render_depth(world.cameras.front().camera));

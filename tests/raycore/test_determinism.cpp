@@ -74,7 +74,7 @@ Answers ask(const Scene& scene, RayOrder order) {
   return answers;
 }
 
-void check_same(const Answers& a, const Answers& b) {
+void expect_same(const Answers& a, const Answers& b) {
   CHECK(same_bits(a.hits, b.hits));
   CHECK(same_bits(a.from_eye, b.from_eye));
   CHECK(same_bits(a.pairs, b.pairs));
@@ -93,7 +93,7 @@ TEST_CASE("1, 2, 3 and 8 threads give the same bits") {
         with_threads(threads, [&] { all.push_back(ask(*scene, order)); });
       }
       CAPTURE(with_instances);
-      for (std::size_t i = 1; i < all.size(); ++i) check_same(all[0], all[i]);
+      for (std::size_t i = 1; i < all.size(); ++i) expect_same(all[0], all[i]);
     }
   }
 }
