@@ -39,13 +39,15 @@ std::optional<PinholeCamera> suggested_camera(const Plan& plan) {
                        plan.request.range);
 }
 
-double frustum_length(const PinholeCamera& camera, const Plan& plan) {
-  return 0.35 * (camera.centre() - plan.request.work_area.centre()).norm();
+TriangleMesh shape_of(const PinholeCamera& camera, const Plan& plan, double size = 1) {
+  const double scale = size * scale_of(plan);
+  const double distance = (camera.centre() - plan.request.work_area.centre()).norm();
+  return camera_shape(camera, 0.22 * scale, 0.35 * size * distance, 0.006 * scale);
 }
 
-TriangleMesh shape_of(const PinholeCamera& camera, const Plan& plan) {
-  const double scale = scale_of(plan);
-  return camera_shape(camera, 0.22 * scale, frustum_length(camera, plan), 0.006 * scale);
+/// Many cameras are drawn small: else their frusta are all that one sees.
+double size_of_given_cameras(const WorldModel& world) {
+  return std::min(1.0, 2 / std::sqrt(double(std::max<std::size_t>(1, world.cameras.size()))));
 }
 
 std::vector<ColoredMesh> voxel_meshes(const StateGrid& grid) {
@@ -58,7 +60,8 @@ std::vector<ColoredMesh> camera_meshes(const Plan& plan, const WorldModel& world
   std::vector<ColoredMesh> meshes{
       {"work area", box_edges(plan.request.work_area, 0.004 * scale_of(plan)), kWorkArea}};
   for (const Observer& observer : world.cameras) {
-    meshes.push_back({"camera " + observer.name, shape_of(observer.camera, plan), kGivenCamera});
+    meshes.push_back({"camera " + observer.name,
+                      shape_of(observer.camera, plan, size_of_given_cameras(world)), kGivenCamera});
   }
   if (const auto camera = suggested_camera(plan)) {
     meshes.push_back({"suggested camera", shape_of(*camera, plan), kSuggestedCamera});
@@ -167,14 +170,16 @@ std::vector<Eigen::Vector3d> points_of_interest(const Plan& plan, const WorldMod
                         (corner & 2 ? area.max() : area.min()).y(),
                         (corner & 4 ? area.max() : area.min()).z());
   }
-  const auto add = [&](const PinholeCamera& camera) {
-    const TriangleMesh shape = shape_of(camera, plan);
+  const auto add = [&](const PinholeCamera& camera, double size) {
+    const TriangleMesh shape = shape_of(camera, plan, size);
     for (const Eigen::Vector3f& p : shape.vertices()) {
       points.push_back(p.cast<double>());
     }
   };
-  for (const Observer& observer : world.cameras) add(observer.camera);
-  if (const auto camera = suggested_camera(plan)) add(*camera);
+  for (const Observer& observer : world.cameras) {
+    add(observer.camera, size_of_given_cameras(world));
+  }
+  if (const auto camera = suggested_camera(plan)) add(*camera, 1);
   return points;
 }
 
