@@ -2,12 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
-#include <string>
 #include <utility>
 #include <vector>
 
-#include "shapes.hpp"
+#include "overview_camera.hpp"
+#include "plan_shapes.hpp"
 #include "vantage/raycore/image_io.hpp"
 #include "vantage/raycore/mesh_io.hpp"
 #include "vantage/raycore/picture.hpp"
@@ -16,59 +15,7 @@
 namespace vantage {
 namespace {
 
-const Eigen::Vector3f kOccupied(0.42f, 0.70f, 0.36f);
-const Eigen::Vector3f kShadow(0.86f, 0.24f, 0.20f);
-const Eigen::Vector3f kRevealed(0.16f, 0.76f, 0.82f);
-const Eigen::Vector3f kGivenCamera(0.50f, 0.52f, 0.55f);
-const Eigen::Vector3f kSuggestedCamera(0.90f, 0.08f, 0.06f);
-const Eigen::Vector3f kWorkArea(0.35f, 0.37f, 0.40f);
 const Eigen::Vector3f kFloor(0.90f, 0.90f, 0.91f);
-
-constexpr const char* kRevealedName = "revealed";
-/// How much of the light the revealed voxels keep back: one sees what stands inside them.
-constexpr double kRevealedOpacity = 0.4;
-
-/// Sizes of what is drawn follow the work area.
-double scale_of(const Plan& plan) {
-  return 0.5 * plan.request.work_area.size().norm();
-}
-
-std::optional<PinholeCamera> suggested_camera(const Plan& plan) {
-  if (!plan.best) return std::nullopt;
-  return PinholeCamera(plan.request.intrinsics, plan.candidates[*plan.best].view.T_world_cam,
-                       plan.request.range);
-}
-
-TriangleMesh shape_of(const PinholeCamera& camera, const Plan& plan, double size = 1) {
-  const double scale = size * scale_of(plan);
-  const double distance = (camera.centre() - plan.request.work_area.centre()).norm();
-  return camera_shape(camera, 0.22 * scale, 0.35 * size * distance, 0.006 * scale);
-}
-
-/// Many cameras are drawn small: else their frusta are all that one sees.
-double size_of_given_cameras(const WorldModel& world) {
-  return std::min(1.0, 2 / std::sqrt(double(std::max<std::size_t>(1, world.cameras.size()))));
-}
-
-std::vector<ColoredMesh> voxel_meshes(const StateGrid& grid) {
-  return {{"occupied", grid.faces(VoxelState::occupied), kOccupied},
-          {"shadow", grid.faces(VoxelState::shadow), kShadow},
-          {kRevealedName, grid.faces(VoxelState::revealed), kRevealed, float(kRevealedOpacity)}};
-}
-
-std::vector<ColoredMesh> camera_meshes(const Plan& plan, const WorldModel& world) {
-  std::vector<ColoredMesh> meshes{
-      {"work area", box_edges(plan.request.work_area, 0.004 * scale_of(plan)), kWorkArea}};
-  for (const Observer& observer : world.cameras) {
-    meshes.push_back({"camera " + observer.name,
-                      shape_of(observer.camera, plan, size_of_given_cameras(world)), kGivenCamera});
-  }
-  if (const auto camera = suggested_camera(plan)) {
-    meshes.push_back({"suggested camera", shape_of(*camera, plan), kSuggestedCamera});
-  }
-  return meshes;
-}
-
 constexpr int kSamples = 64;
 
 /// The mean of two pictures of one size, `share` of it from the first.
@@ -94,7 +41,8 @@ class Stage {
       material.line_width_m = 0.1f * material.line_spacing_m;
       material.line_shade = 0.55f;
       material.line_origin = geometry.origin().cast<float>();
-      (part.name == kRevealedName ? veil_ : props_).push_back({part.mesh, material});
+      if (part.opacity < 1) opacity_ = double(part.opacity);
+      (part.opacity < 1 ? veil_ : props_).push_back({part.mesh, material});
     }
   }
 
@@ -120,14 +68,14 @@ class Stage {
     props_.push_back({TriangleMesh::from_box(slab), material});
   }
 
-  /// Draws everything, and once more without the revealed voxels, and lays one over the other.
+  /// Draws everything, and once more without what is half transparent, and lays one over the other.
   void draw(const std::filesystem::path& path, const PinholeCamera& camera,
             const StopToken& stop) const {
     std::vector<Prop> all = props_;
     all.insert(all.end(), veil_.begin(), veil_.end());
-    const auto with_veil = picture(all, camera, kRevealedOpacity, stop);
-    const auto without = picture(props_, camera, 1 - kRevealedOpacity, stop);
-    if (with_veil && without) write_png(path, blended(*with_veil, *without, kRevealedOpacity));
+    const auto with_veil = picture(all, camera, opacity_, stop);
+    const auto without = picture(props_, camera, 1 - opacity_, stop);
+    if (with_veil && without) write_png(path, blended(*with_veil, *without, opacity_));
   }
 
  private:
@@ -158,75 +106,9 @@ class Stage {
 
   const Plan& plan_;
   std::vector<Prop> props_;
-  std::vector<Prop> veil_;  ///< what is drawn half transparent
+  std::vector<Prop> veil_;  ///< what is drawn half transparent: one sees what stands inside
+  double opacity_ = 1;      ///< of the veil
 };
-
-/// Everything that the overview has to show.
-std::vector<Eigen::Vector3d> points_of_interest(const Plan& plan, const WorldModel& world) {
-  std::vector<Eigen::Vector3d> points;
-  const Box& area = plan.request.work_area;
-  for (int corner = 0; corner < 8; ++corner) {
-    points.emplace_back((corner & 1 ? area.max() : area.min()).x(),
-                        (corner & 2 ? area.max() : area.min()).y(),
-                        (corner & 4 ? area.max() : area.min()).z());
-  }
-  const auto add = [&](const PinholeCamera& camera, double size) {
-    const TriangleMesh shape = shape_of(camera, plan, size);
-    for (const Eigen::Vector3f& p : shape.vertices()) {
-      points.push_back(p.cast<double>());
-    }
-  };
-  for (const Observer& observer : world.cameras) {
-    add(observer.camera, size_of_given_cameras(world));
-  }
-  if (const auto camera = suggested_camera(plan)) add(*camera, 1);
-  return points;
-}
-
-double azimuth_of(const Eigen::Vector3d& v) {
-  return std::atan2(v.y(), v.x());
-}
-
-/// From which azimuth to look: beside the suggested camera, on the side where the mean of the given
-/// ones is, so that both of them are seen and neither stands in the way.
-double overview_azimuth(const Plan& plan, const WorldModel& world) {
-  const Eigen::Vector3d centre = plan.request.work_area.centre();
-  Eigen::Vector3d given = Eigen::Vector3d::Zero();
-  for (const Observer& observer : world.cameras) given += observer.camera.centre() - centre;
-  const double given_azimuth = azimuth_of(given);
-  const auto camera = suggested_camera(plan);
-  if (!camera) return given_azimuth + std::numbers::pi / 3;
-  const Eigen::Vector3d suggested = camera->centre() - centre;
-  const bool from_above = suggested.head<2>().norm() < 0.3 * suggested.norm();
-  if (from_above) return given_azimuth + std::numbers::pi / 3;
-  const double turn = std::remainder(given_azimuth - azimuth_of(suggested), 2 * std::numbers::pi);
-  return azimuth_of(suggested) + (turn < 0 ? -1 : 1) * std::numbers::pi / 3.6;
-}
-
-/// A camera far enough away for a calm perspective; focal length and principal point are such that
-/// the points fill the picture.
-PinholeCamera overview_camera(const Plan& plan, const WorldModel& world, int width) {
-  const int height = std::max(1, width * 5 / 8);
-  const std::vector<Eigen::Vector3d> points = points_of_interest(plan, world);
-  Eigen::Vector3d low = points.front(), high = points.front();
-  for (const Eigen::Vector3d& p : points) low = low.cwiseMin(p), high = high.cwiseMax(p);
-  const Eigen::Vector3d centre = 0.5 * (low + high);
-  const double azimuth = overview_azimuth(plan, world), elevation = 0.48;
-  const Eigen::Vector3d direction(std::cos(elevation) * std::cos(azimuth),
-                                  std::cos(elevation) * std::sin(azimuth), std::sin(elevation));
-  const Pose pose = Pose::looking_at(centre + 1.5 * (high - low).norm() * direction, centre);
-
-  const PinholeCamera unit({width, height, 1, 1, 0, 0}, pose);
-  Eigen::Array2d least(1e9, 1e9), most(-1e9, -1e9);
-  for (const Eigen::Vector3d& p : points) {
-    const std::optional<ImagePoint> q = unit.project(p);
-    least = least.min(Eigen::Array2d(q->u, q->v)), most = most.max(Eigen::Array2d(q->u, q->v));
-  }
-  const Eigen::Array2d size(width, height);
-  const double focal = (0.93 * size / (most - least)).minCoeff();
-  const Eigen::Array2d principal = 0.5 * size - focal * 0.5 * (least + most);
-  return PinholeCamera({width, height, focal, focal, principal.x(), principal.y()}, pose);
-}
 
 }  // namespace
 

@@ -1,0 +1,63 @@
+#include "plan_shapes.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "shapes.hpp"
+
+namespace vantage {
+namespace {
+
+const Eigen::Vector3f kOccupied(0.42f, 0.70f, 0.36f);
+const Eigen::Vector3f kShadow(0.86f, 0.24f, 0.20f);
+const Eigen::Vector3f kRevealed(0.16f, 0.76f, 0.82f);
+const Eigen::Vector3f kGivenCamera(0.50f, 0.52f, 0.55f);
+const Eigen::Vector3f kSuggestedCamera(0.90f, 0.08f, 0.06f);
+const Eigen::Vector3f kWorkArea(0.35f, 0.37f, 0.40f);
+
+/// How much of the light the revealed voxels keep back: one sees what stands inside them.
+constexpr double kRevealedOpacity = 0.4;
+
+TriangleMesh shape_of(const PinholeCamera& camera, const Plan& plan, double size = 1) {
+  const double scale = size * scale_of(plan);
+  const double distance = (camera.centre() - plan.request.work_area.centre()).norm();
+  return camera_shape(camera, 0.22 * scale, 0.35 * size * distance, 0.006 * scale);
+}
+
+/// Many cameras are drawn small: else their frusta are all that one sees.
+double size_of_given_cameras(const WorldModel& world) {
+  return std::min(1.0, 2 / std::sqrt(double(std::max<std::size_t>(1, world.cameras.size()))));
+}
+
+}  // namespace
+
+double scale_of(const Plan& plan) {
+  return 0.5 * plan.request.work_area.size().norm();
+}
+
+std::optional<PinholeCamera> suggested_camera(const Plan& plan) {
+  if (!plan.best) return std::nullopt;
+  return PinholeCamera(plan.request.intrinsics, plan.candidates[*plan.best].view.T_world_cam,
+                       plan.request.range);
+}
+
+std::vector<ColoredMesh> voxel_meshes(const StateGrid& grid) {
+  return {{"occupied", grid.faces(VoxelState::occupied), kOccupied},
+          {"shadow", grid.faces(VoxelState::shadow), kShadow},
+          {"revealed", grid.faces(VoxelState::revealed), kRevealed, float(kRevealedOpacity)}};
+}
+
+std::vector<ColoredMesh> camera_meshes(const Plan& plan, const WorldModel& world) {
+  std::vector<ColoredMesh> meshes{
+      {"work area", box_edges(plan.request.work_area, 0.004 * scale_of(plan)), kWorkArea}};
+  for (const Observer& observer : world.cameras) {
+    meshes.push_back({"camera " + observer.name,
+                      shape_of(observer.camera, plan, size_of_given_cameras(world)), kGivenCamera});
+  }
+  if (const auto camera = suggested_camera(plan)) {
+    meshes.push_back({"suggested camera", shape_of(*camera, plan), kSuggestedCamera});
+  }
+  return meshes;
+}
+
+}  // namespace vantage
