@@ -47,6 +47,7 @@ std::vector<Eigen::Vector3d> half_sphere_directions(int count) {
   const double spacing = std::sqrt(2 * kPi / count);
   const int rings = std::max(1, int(std::lround(kPi / 2 / spacing)));
   std::vector<double> circumferences;
+  circumferences.reserve(std::size_t(rings));
   for (int ring = 0; ring < rings; ++ring) {
     circumferences.push_back(std::sin(kPi / 2 * (ring + 0.5) / rings));
   }
