@@ -3,7 +3,7 @@
 #include <doctest/doctest.h>
 
 #include "schemas.hpp"
-#include "support/caught.hpp"
+#include "support/expect_error.hpp"
 #include "yaml_document.hpp"
 
 namespace vantage::test {

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "support/caught.hpp"
+#include "support/expect_error.hpp"
 #include "support/test_data.hpp"
 
 namespace vantage::test {

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "reconstruction/scene_folder.hpp"
-#include "support/caught.hpp"
+#include "support/expect_error.hpp"
 #include "vantage/reconstruction/color_image.hpp"
 
 namespace vantage::test {

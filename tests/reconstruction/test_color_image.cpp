@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "support/caught.hpp"
+#include "support/expect_error.hpp"
 #include "support/test_data.hpp"
 #include "vantage/raycore/image_io.hpp"
 
