@@ -7,4 +7,3 @@ root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 "$root/apps/setup.sh"
 "$root/apps/build.sh" release vantage
 "$root/build/release/apps/vantage" demo -o "$root/out/demo" "$@"
-echo "The pictures: $root/out/demo/overview.png and view.png beside it" >&2

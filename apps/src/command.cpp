@@ -6,7 +6,8 @@ namespace vantage {
 
 void CommonOptions::add_to(CLI::App& verb) {
   CLI::Option* folder = verb.add_option("-o,--output", output.folder,
-                                        "Folder for the results; it is made if it is missing");
+                                        "Folder for the results; it is made if it is missing")
+                            ->take_last();  // apps/demo.sh gives one, which its user may replace
   verb.add_flag("--json", output.json, "Print plan.json on stdout instead of a summary");
   verb.add_flag("--save-grid", output.save_grid, "Write grid.vdb: the state of every voxel")
       ->needs(folder);

@@ -90,7 +90,8 @@ const json& resolve(const json& root, const json& schema) {
 
 const json& schema_at(const json& root, const json::json_pointer& at) {
   if (at.empty()) return resolve(root, root);
-  const json& parent = schema_at(root, at.parent_pointer());
+  const json::json_pointer above = at.parent_pointer();
+  const json& parent = schema_at(root, above);
   if (parent.contains("properties") && parent["properties"].contains(at.back())) {
     return resolve(root, parent["properties"][at.back()]);
   }

@@ -127,12 +127,20 @@ TEST_CASE("a damaged byte never gives another image") {
   const test::TemporaryFolder folder;
   const CountImage image = ramp();
   const std::string whole = png_bytes(folder, image);
+  std::size_t refused = 0;
   for (std::size_t i = 0; i < whole.size(); ++i) {
     CAPTURE(i);
     std::string damaged = whole;
     damaged[i] = char(damaged[i] ^ 0x55);
-    expect_refused(damaged, "");
+    try {  // newer versions of libpng forgive damage behind the last pixel
+      const CountImage read = read_png_counts(folder.write("damaged.png", damaged));
+      CHECK(read == image);
+    } catch (const Error& error) {
+      CHECK(error.code() == ErrorCode::bad_input);
+      ++refused;
+    }
   }
+  CHECK(refused > whole.size() - 24);
   std::string damaged = whole;
   damaged[whole.size() - 16] = char(~damaged[whole.size() - 16]);  // the data's checksum
   expect_refused(damaged, "CRC");

@@ -19,7 +19,7 @@ namespace vantage {
 struct PlanRequest {
   Box work_area;
   Intrinsics intrinsics;             ///< of the movable camera
-  DepthRange range;                  ///< of the movable camera
+  DepthRange range = {};             ///< of the movable camera
   double voxel_size_m = 0.009375;    ///< the thesis' smallest voxel
   std::vector<double> radii_m = {};  ///< of the half-spheres; empty: `default_radii_m`
   int candidates_per_half_sphere = 20;
