@@ -6,6 +6,7 @@
 
 #include <cstring>
 #include <limits>
+#include <thread>
 #include <vector>
 
 #include "reference/random_scene.hpp"
@@ -55,13 +56,15 @@ struct Answers {
   std::vector<float> depth;
 };
 
+Points random_points(std::uint32_t seed) {
+  Random random(seed);
+  Points points(kRays);
+  for (std::size_t i = 0; i < kRays; ++i) points.set(i, random.in_cube(1.2).cast<float>());
+  return points;
+}
+
 Answers ask(const Scene& scene, RayOrder order) {
-  Random random(8);
-  Points a(kRays), b(kRays);
-  for (std::size_t i = 0; i < kRays; ++i) {
-    a.set(i, random.in_cube(1.2).cast<float>());
-    b.set(i, random.in_cube(1.2).cast<float>());
-  }
+  static const Points a = random_points(8), b = random_points(9);
   const Eigen::Vector3d eye(0.9, -1.1, 1.3);
   Answers answers;
   scene.closest_hits(a, b, answers.hits, order);
@@ -113,6 +116,35 @@ TEST_CASE("a scene built at another number of threads gives the same depths and 
       CHECK(same_bits(all[0].to_eye, all[i].to_eye));
       CHECK(same_bits(all[0].depth, all[i].depth));
     }
+  }
+}
+
+TEST_CASE("many threads may ask one scene at once") {
+  const auto scene = random_scene(5, true).scene;
+  static constexpr std::size_t kSmall = 1000;  // one block: traced by the thread that asks
+  Random random(6);
+  Points a(kSmall), b(kSmall);
+  for (std::size_t i = 0; i < kSmall; ++i) {
+    a.set(i, random.in_cube(1.2).cast<float>());
+    b.set(i, random.in_cube(1.2).cast<float>());
+  }
+  std::vector<Hits> hits(8);
+  std::vector<std::vector<std::uint8_t>> occluded(8, std::vector<std::uint8_t>(kSmall));
+  std::vector<std::thread> threads;
+  for (std::size_t t = 0; t < hits.size(); ++t) {
+    threads.emplace_back([&, t] {
+      for (int again = 0; again < 5; ++again) {
+        scene->closest_hits(a, b, hits[t]);
+        scene->occluded(a, b, occluded[t]);
+        (void)scene->closest_hit({a[t], b[t]});
+        (void)scene->occluded(a[t], b[t]);
+      }
+    });
+  }
+  for (std::thread& thread : threads) thread.join();
+  for (std::size_t t = 1; t < hits.size(); ++t) {
+    CHECK(same_bits(hits[0], hits[t]));
+    CHECK(same_bits(occluded[0], occluded[t]));
   }
 }
 
