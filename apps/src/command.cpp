@@ -25,10 +25,10 @@ void CommonOptions::add_to(CLI::App& verb) {
 }
 
 RunOptions CommonOptions::run(StopToken::Clock::time_point start) const {
-  if (!deadline_ms) return {threads, StopToken()};
+  if (!deadline_ms) return {.threads = threads};
   const auto time = std::chrono::duration_cast<StopToken::Clock::duration>(
       std::chrono::duration<double, std::milli>(*deadline_ms));
-  return {threads, StopToken::with_deadline(start + time)};
+  return {.threads = threads, .stop = StopToken::with_deadline(start + time)};
 }
 
 }  // namespace vantage

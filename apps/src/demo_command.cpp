@@ -2,6 +2,7 @@
 
 #include "command.hpp"
 #include "demo_scene.hpp"
+#include "interrupt.hpp"
 #include "plan_json.hpp"
 
 namespace vantage {
@@ -14,13 +15,15 @@ struct DemoArguments {
 
 ExitCode demo(const DemoArguments& arguments) {
   const auto start = StopToken::Clock::now();
+  const RunOptions run = arguments.common.run(start);
+  const Interrupt interrupt({run.stop, run.drawing});
   PlanRequest request = demo_request();
   request.voxel_size_m = arguments.voxel_size_m;
   PlanRecord record;
   record.config = {{"scene", "demo: a wall of cubes"}};
   OutputOptions output = arguments.common.output;
   output.pictures = true;
-  return run_plan(demo_world(), request, record, output, arguments.common.run(start), start);
+  return run_plan(demo_world(), request, record, output, run, start);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 
+#include <filesystem>
 #include <new>
 
 #include "command.hpp"
@@ -25,6 +26,9 @@ ExitCode run(const Action& action) {
   } catch (const Error& error) {
     spdlog::error("{}", error.what());
     return exit_code_of(error.code());
+  } catch (const std::filesystem::filesystem_error& error) {  // e.g. a folder that we may not read
+    spdlog::error("{}", error.what());
+    return ExitCode::bad_input;
   } catch (const std::bad_alloc&) {
     spdlog::error("out of memory: use larger voxels, or fewer images");
     return ExitCode::out_of_resources;

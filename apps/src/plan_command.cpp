@@ -1,6 +1,7 @@
 #include <memory>
 
 #include "command.hpp"
+#include "interrupt.hpp"
 #include "plan_input.hpp"
 #include "vantage/raycore/error.hpp"
 
@@ -57,12 +58,13 @@ void add_planning_options(CLI::App& verb, PlanArguments& arguments) {
 
 ExitCode plan(const PlanArguments& arguments) {
   const auto start = StopToken::Clock::now();
+  const RunOptions run = arguments.common.run(start);
+  const Interrupt interrupt({run.stop, run.drawing});
   PlanInput input = load_plan_input(arguments.plan);
   input.record.config["deadline_ms"] = arguments.common.deadline_ms
                                            ? nlohmann::ordered_json(*arguments.common.deadline_ms)
                                            : nlohmann::ordered_json();
-  return run_plan(input.world, input.request, input.record, arguments.common.output,
-                  arguments.common.run(start), start);
+  return run_plan(input.world, input.request, input.record, arguments.common.output, run, start);
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 
@@ -155,6 +156,12 @@ std::string summary_of(const Plan& plan) {
     text += best_summary(plan);
   } else {
     text += plan.stopped == StopReason::none ? "no feasible view\n" : "stopped before any score\n";
+  }
+  if (plan.stopped != StopReason::none) {
+    const auto scored = std::count_if(plan.candidates.begin(), plan.candidates.end(),
+                                      [](const auto& c) { return c.revealed_voxels.has_value(); });
+    text +=
+        fmt::format("partial    {} of {} candidates were scored\n", scored, plan.candidates.size());
   }
   const std::string rejected = rejections(plan);
   if (!rejected.empty()) text += "rejected   " + rejected + "\n";

@@ -6,7 +6,6 @@
 
 #include <iostream>
 
-#include "interrupt.hpp"
 #include "plan_pictures.hpp"
 #include "progress_line.hpp"
 #include "vantage/raycore/error.hpp"
@@ -63,8 +62,6 @@ ExitCode run_plan(const WorldModel& world, const PlanRequest& request, PlanRecor
   const tbb::global_control allow(tbb::global_control::max_allowed_parallelism,
                                   std::size_t(threads));
   tbb::task_arena arena(threads);
-  const StopToken drawing;  // pictures know no deadline
-  const Interrupt interrupt({run.stop, drawing});
   if (!output.folder.empty()) make_folder(output.folder);
 
   const Plan plan = arena.execute([&] {
@@ -80,9 +77,9 @@ ExitCode run_plan(const WorldModel& world, const PlanRequest& request, PlanRecor
   }
   std::cout << (output.json ? json : summary_of(plan)) << std::flush;
   if (plan.grid != nullptr) {
-    arena.execute([&] { write_extras(plan, world, output, drawing); });
+    arena.execute([&] { write_extras(plan, world, output, run.drawing); });
   }
-  if (drawing.stop_requested()) return ExitCode::cancelled;
+  if (run.drawing.stop_requested()) return ExitCode::cancelled;
   return exit_code_of(plan);
 }
 

@@ -23,11 +23,12 @@ struct OutputOptions {
 
 /// How it is to be computed.
 struct RunOptions {
-  int threads = 0;  ///< 0: as many as the machine has
-  StopToken stop = {};
+  int threads = 0;         ///< 0: as many as the machine has
+  StopToken stop = {};     ///< of the planning
+  StopToken drawing = {};  ///< of pictures and models: they know no deadline
 };
 
-/// Plans, writes and prints. Ctrl-C ends the work early; what is done by then is written.
+/// Plans, writes and prints. When a token stops the work, what is done by then is written.
 /// @param start when the command began, for `timing_ms`; `record.load_s` is filled in already.
 ExitCode run_plan(const WorldModel& world, const PlanRequest& request, PlanRecord record,
                   const OutputOptions& output, const RunOptions& run,

@@ -5,6 +5,7 @@
 #include "run_command.hpp"
 #include "schema_check.hpp"
 #include "schemas.hpp"
+#include "vantage/reconstruction/color_image.hpp"
 
 namespace vantage {
 namespace {
@@ -22,15 +23,42 @@ double revealed_share(const nlohmann::json& plan) {
          plan["volumes_m3"]["shadow"].get<double>();
 }
 
+using Pixel = const std::uint8_t*;
+bool is_red(Pixel p) {
+  return p[0] > 150 && p[1] < 60 && p[2] < 60;
+}
+bool is_green(Pixel p) {
+  return p[1] > p[0] + 30 && p[1] > p[2] + 30;
+}
+bool is_cyan(Pixel p) {
+  return p[1] > p[0] + 25 && p[2] > p[0] + 25;
+}
+
+double share_of(const ColorImage& image, bool (*matches)(Pixel)) {
+  int count = 0;
+  for (int v = 0; v < image.height; ++v) {
+    for (int u = 0; u < image.width; ++u) count += matches(image.pixel(u, v));
+  }
+  return double(count) / (image.width * image.height);
+}
+
 }  // namespace
 
 TEST_CASE("vantage demo plans, and draws what it found") {
   const test::TemporaryFolder folder;
-  const auto result = run_vantage("demo -o '" + folder.path().string() + "'");
+  const auto result = run_vantage("demo --picture-width 640 -o '" + folder.path().string() + "'");
   CHECK(result.exit_code == 0);
   CHECK(result.out.find("next view  candidate") == 0);
-  CHECK(fs::file_size(folder / "overview.png") > 100'000);
-  CHECK(fs::file_size(folder / "view.png") > 20'000);
+  const ColorImage overview = read_color(folder / "overview.png");
+  CHECK(overview.width == 640);
+  CHECK(share_of(overview, is_red) > 0.003);  // the suggested camera
+  CHECK(share_of(overview, is_green) > 0.01);
+  CHECK(share_of(overview, is_cyan) > 0.01);
+  const ColorImage view = read_color(folder / "view.png");
+  CHECK(view.width == 640);
+  CHECK(view.height == 480);
+  CHECK(share_of(view, is_red) < 1e-4);  // it sees no shadow but what it reveals, and not itself
+  CHECK(share_of(view, is_cyan) > 0.03);
   const auto plan = nlohmann::json::parse(test::read_text(folder / "plan.json"));
   CHECK_NOTHROW(check_schema({"plan.json", plan}, plan_schema()));
   CHECK(plan["candidates"].size() == 40);
@@ -104,6 +132,7 @@ TEST_CASE("Ctrl-C gives exit code 130 and the partial plan") {
           "' --work-area -0.5 -0.5 0.01 0.5 0.5 0.5 --voxel-size 0.0012 -o '" + out + "'",
       "timeout --preserve-status -s INT 1");
   CHECK(result.exit_code == 130);
+  CHECK(result.out.find("stopped before") == 0);
   const auto plan = nlohmann::json::parse(test::read_text(folder / "out/plan.json"));
   CHECK(plan["partial"] == true);
 }

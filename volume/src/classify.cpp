@@ -98,6 +98,7 @@ std::shared_ptr<const StateGrid> classify(const WorldModel& world, const GridGeo
   const std::shared_ptr<const Scene> known = known_scene(world);
   const Scene* occluders = known->triangle_count() > 0 ? known.get() : nullptr;
   for (const Observer& observer : world.cameras) {
+    if (stop.stop_requested()) break;
     const detail::CameraView view(observer, geometry, layout, occluders);
     tbb::parallel_for(std::size_t(0), layout.count(), [&](std::size_t block) {
       if (stop.stop_requested()) return;
