@@ -64,8 +64,8 @@ struct SceneImpl;
 ///
 /// Batches are split over the `tbb::task_arena` in which they are called. The same batch gives the
 /// same bits at any number of threads. No ray slips through an edge that two triangles share; which
-/// of them it reports is left open. Of the rays that are aimed, to the last bit, at a shared vertex,
-/// some tenths of a percent slip through (Embree's robust test); beside it none do.
+/// of them it reports is left open. Of the rays that are aimed, to the last bit, at a shared
+/// vertex, some tenths of a percent slip through (Embree's robust test); beside it none do.
 ///
 /// Every ray is checked first. A coordinate that is not finite or beyond 1e9 m, a zero direction
 /// and a segment of zero length are refused: Error bad_input with the index of the first such ray.
