@@ -14,6 +14,7 @@ namespace vantage::detail {
 /// Rays that one task traces. A multiple of the packet width, and fixed: packets then hold the same
 /// rays at any number of threads, and with that every bit of the result is the same.
 inline constexpr std::size_t kBlockRays = 1024;
+static_assert(kBlockRays % kPacketWidth == 0);
 
 /// Calls `block(first, last)` for fixed parts of 0 … count in the caller's task arena.
 /// @returns whether every call returned true.

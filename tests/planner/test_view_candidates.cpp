@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numbers>
 
 #include "support/expect_error.hpp"
@@ -44,6 +45,23 @@ TEST_CASE("twenty directions are Deserno's rings of 3, 7 and 10") {
   CHECK(on_ring(15) == 3);
   CHECK(on_ring(45) == 7);
   CHECK(on_ring(75) == 10);
+}
+
+TEST_CASE("every ring gets its share of the directions, rounded up or down") {
+  for (int count = 1; count <= 300; ++count) {
+    std::map<double, int> rings;  // by z
+    for (const Eigen::Vector3d& d : half_sphere_directions(count)) ++rings[d.z()];
+    double circumferences = 0;
+    const double spacing =
+        std::numbers::pi / 2 / std::max(1.0, std::round(std::sqrt(std::numbers::pi * count / 8)));
+    for (double polar = spacing / 2; polar < std::numbers::pi / 2; polar += spacing) {
+      circumferences += std::sin(polar);
+    }
+    CAPTURE(count);
+    for (const auto& [z, points] : rings) {
+      REQUIRE(std::abs(points - count * std::sqrt(1 - z * z) / circumferences) < 1);
+    }
+  }
 }
 
 TEST_CASE("directions are spread evenly") {
