@@ -11,7 +11,8 @@ void CommonOptions::add_to(CLI::App& verb) {
   verb.add_flag("--json", output.json, "Print plan.json on stdout instead of a summary");
   verb.add_flag("--save-grid", output.save_grid, "Write grid.vdb: the state of every voxel")
       ->needs(folder);
-  verb.add_flag("--save-surface", output.save_surface, "Write shadow.ply: the shadow's surface")
+  verb.add_flag("--save-surface", output.save_surface,
+                "Write shadow.ply: the surface of the shadow that stays")
       ->needs(folder);
   verb.add_flag("--save-scene", output.save_scene, "Write scene.glb: voxels and cameras in 3D")
       ->needs(folder);
