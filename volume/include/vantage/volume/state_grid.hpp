@@ -10,6 +10,7 @@
 #include "vantage/raycore/points.hpp"
 #include "vantage/raycore/triangle_mesh.hpp"
 #include "vantage/volume/grid_geometry.hpp"
+#include "vantage/volume/volume_report.hpp"
 
 namespace vantage {
 
@@ -25,8 +26,9 @@ namespace detail {
 struct StateGridImpl;
 }
 
-/// The state of every voxel in the work area: an immutable, sparse OpenVDB grid whose background is
-/// free. Made by `classify`, shared by `shared_ptr<const StateGrid>`; every method is thread-safe.
+/// The state of every voxel in the work area: immutable, sparse OpenVDB
+/// trees in which free voxels cost nothing. Made by `classify`, shared by `shared_ptr<const
+/// StateGrid>`; every method is thread-safe.
 class VANTAGE_API StateGrid {
  public:
   explicit StateGrid(std::unique_ptr<const detail::StateGridImpl> impl);
@@ -43,10 +45,15 @@ class VANTAGE_API StateGrid {
   /// inside a known object.
   bool measured(const Eigen::Vector3i& voxel) const;
 
+  /// Whether a shadow (or revealed) voxel is outside every camera's image and depth range.
+  bool unseen(const Eigen::Vector3i& voxel) const;
+
   std::uint64_t count(VoxelState state) const noexcept;
   double volume_m3(VoxelState state) const {
     return double(count(state)) * geometry().voxel_volume_m3();
   }
+
+  const VolumeReport& report() const noexcept;
 
   /// The centres of all voxels in a state, world frame, block of 8³ by block: neighbours in the
   /// list are neighbours in space.

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace vantage {
+
+/// A known object that depth images see through: its pose or its presence is in doubt.
+struct ObjectConflict {
+  std::string object;
+  std::uint64_t voxels = 0;     ///< of the object's voxels, those seen through
+  std::uint64_t of_voxels = 0;  ///< the object's voxels in the work area
+};
+
+/// What a classification found beside the states, in voxels.
+struct VolumeReport {
+  /// Shadow that no camera's image and depth range covers. The other shadow is hidden: some image
+  /// covers it, and something is in the way (or that image's depth is unknown there).
+  std::uint64_t unseen_shadow = 0;
+
+  /// Shadow that anti-aliasing removed, or would have removed where it is off.
+  std::uint64_t aliased_shadow = 0;
+
+  /// Objects with conflicts only, in the order of the world model (objects, then structures).
+  std::vector<ObjectConflict> conflicts;
+
+  /// For people; each names what it is about.
+  std::vector<std::string> warnings;
+};
+
+}  // namespace vantage
