@@ -56,7 +56,7 @@ Plan plan_next_view(const WorldModel& world, const PlanRequest& request, const S
   for (const ViewCandidate& view : views) plan.candidates.push_back({view, {}, {}});
 
   const auto start = std::chrono::steady_clock::now();
-  plan.grid = classify(world, geometry, stop);
+  plan.grid = classify(world, geometry, {}, stop);
   plan.classify_s = seconds_since(start);
   if (plan.grid != nullptr) {
     const auto scoring = std::chrono::steady_clock::now();

@@ -1,138 +1,121 @@
 #include <doctest/doctest.h>
-#include <openvdb/openvdb.h>
+#include <tbb/global_control.h>
+#include <tbb/task_arena.h>
 
-#include <cmath>
 #include <map>
 
-#include "reference/random_workcell.hpp"
 #include "support/expect_error.hpp"
-#include "support/test_data.hpp"
-#include "vantage/volume/classify.hpp"
+#include "volume/make_grid.hpp"
 
 namespace vantage {
 namespace {
 
-std::shared_ptr<const StateGrid> some_grid() {
-  return classify(test::random_workcell(7),
-                  GridGeometry::covering(test::random_workcell_area(), 0.01));
-}
+using test::for_each_voxel;
+using test::geometry_of;
+using test::make_grid;
+using test::random_voxels;
 
-/// Volume inside a closed mesh, by the divergence theorem.
-double enclosed_volume(const TriangleMesh& mesh) {
-  double volume = 0;
-  for (std::size_t t = 0; t < mesh.triangles().size(); ++t) {
-    const Eigen::Vector3d a = mesh.corner(t, 0).cast<double>(),
-                          b = mesh.corner(t, 1).cast<double>(),
-                          c = mesh.corner(t, 2).cast<double>();
-    volume += a.dot(b.cross(c)) / 6;
-  }
-  return volume;
-}
+constexpr VoxelState kAllStates[] = {VoxelState::free, VoxelState::occupied, VoxelState::shadow,
+                                     VoxelState::revealed};
 
-double area(const TriangleMesh& mesh) {
-  double sum = 0;
-  for (std::size_t t = 0; t < mesh.triangles().size(); ++t) {
-    const Eigen::Vector3d a = mesh.corner(t, 0).cast<double>(),
-                          b = mesh.corner(t, 1).cast<double>(),
-                          c = mesh.corner(t, 2).cast<double>();
-    sum += (b - a).cross(c - a).norm() / 2;
-  }
-  return sum;
-}
-
-/// Faces between voxels of a state and others, counted one by one.
-std::size_t count_faces(const StateGrid& grid, VoxelState state) {
-  std::size_t faces = 0;
-  const Eigen::Vector3i n = grid.geometry().size();
-  for (int i = 0; i < n.x(); ++i)
-    for (int j = 0; j < n.y(); ++j)
-      for (int k = 0; k < n.z(); ++k) {
-        const Eigen::Vector3i voxel(i, j, k);
-        if (grid.at(voxel) != state) continue;
-        for (int axis = 0; axis < 3; ++axis) {
-          for (const int step : {-1, 1}) {
-            Eigen::Vector3i neighbour = voxel;
-            neighbour[axis] += step;
-            faces += grid.at(neighbour) != state || !grid.geometry().contains(neighbour);
-          }
-        }
-      }
-  return faces;
+bool same_points(const Points& a, const Points& b) {
+  return a.x == b.x && a.y == b.y && a.z == b.z;
 }
 
 }  // namespace
 
-TEST_CASE("the faces of a state enclose its voxels exactly") {
-  const auto grid = some_grid();
-  for (const VoxelState state : {VoxelState::occupied, VoxelState::shadow}) {
-    const TriangleMesh faces = grid->faces(state);
-    REQUIRE(grid->count(state) > 100);
-    CHECK(enclosed_volume(faces) == doctest::Approx(grid->volume_m3(state)).epsilon(1e-4));
-    const double face_area = std::pow(grid->geometry().voxel_size_m(), 2);
-    CHECK(area(faces) ==
-          doctest::Approx(double(count_faces(*grid, state)) * face_area).epsilon(1e-4));
-    CHECK(faces.dropped_degenerate() == 0);
-    // Merging pays: far fewer triangles than two for each face.
-    CHECK(faces.triangles().size() < count_faces(*grid, state));
+TEST_CASE("a grid tells what was put in, leaf or tile, and free outside") {
+  const GridGeometry geometry = geometry_of(37, 24, 19);
+  for (const bool tiles : {false, true}) {
+    const auto grid = make_grid(geometry, random_voxels(1), tiles);
+    std::map<VoxelState, std::uint64_t> counts;
+    bool same = true;
+    for_each_voxel(geometry, [&](const Eigen::Vector3i& voxel) {
+      const test::MadeVoxel made = random_voxels(1)(voxel);
+      ++counts[made.state];
+      same &= grid->at(voxel) == made.state && grid->measured(voxel) == made.measured &&
+              grid->unseen(voxel) == made.unseen;
+    });
+    CHECK(same);
+    for (const VoxelState state : kAllStates) {
+      CHECK(counts[state] > 500);
+      CHECK(grid->count(state) == counts[state]);
+    }
+    CHECK(grid->at({-1, 3, 3}) == VoxelState::free);
+    CHECK(grid->at({37, 3, 3}) == VoxelState::free);
   }
 }
 
-TEST_CASE("centres list each voxel of a state once, at its centre") {
-  const auto grid = some_grid();
-  const Points centres = grid->centres(VoxelState::shadow);
-  REQUIRE(centres.size() == grid->count(VoxelState::shadow));
-  std::map<std::array<int, 3>, int> seen;
-  for (std::size_t i = 0; i < centres.size(); ++i) {
-    const auto voxel = grid->geometry().voxel_at(centres[i].cast<double>());
-    REQUIRE(voxel);
-    CHECK(grid->at(*voxel) == VoxelState::shadow);
-    CHECK((grid->geometry().centre(*voxel).cast<float>() - centres[i]).norm() < 1e-7f);
-    CHECK(++seen[{voxel->x(), voxel->y(), voxel->z()}] == 1);
+TEST_CASE("centres list each voxel of a state once, block by block, x slowest in a block") {
+  const GridGeometry geometry = geometry_of(37, 24, 19);
+  const auto grid = make_grid(geometry, random_voxels(2));
+  for (const VoxelState state : kAllStates) {
+    const Points centres = grid->centres(state);
+    REQUIRE(centres.size() == grid->count(state));
+    std::array<int, 6> last{-1};
+    bool in_order = true, right = true;
+    for (std::size_t p = 0; p < centres.size(); ++p) {
+      const auto v = geometry.voxel_at(centres[p].cast<double>());
+      REQUIRE(v);
+      right &= grid->at(*v) == state && geometry.centre(*v).cast<float>() == centres[p];
+      const std::array<int, 6> place{v->x() / 8, v->y() / 8, v->z() / 8, v->x(), v->y(), v->z()};
+      in_order &= last < place;  // blocks of a grid this small have this order among themselves
+      last = place;
+    }
+    CHECK(right);
+    CHECK(in_order);
+  }
+}
+
+TEST_CASE("the order of centres depends neither on tiles nor on threads") {
+  const tbb::global_control allow(tbb::global_control::max_allowed_parallelism, 8);
+  // Large enough for tiles of 128³ voxels in a slab that is all shadow.
+  const GridGeometry geometry = geometry_of(150, 140, 136);
+  const auto slab = [](const Eigen::Vector3i& voxel) -> test::MadeVoxel {
+    if (voxel.x() < 130) return {VoxelState::shadow, false, false};
+    return random_voxels(3)(voxel);
+  };
+  const auto leaves = make_grid(geometry, slab, false), tiles = make_grid(geometry, slab, true);
+  const Points expected = leaves->centres(VoxelState::shadow);
+  CHECK(expected.size() == leaves->count(VoxelState::shadow));
+  for (const int threads : {1, 3, 8}) {
+    tbb::task_arena arena(threads);
+    CHECK(same_points(arena.execute([&] { return tiles->centres(VoxelState::shadow); }), expected));
   }
 }
 
 TEST_CASE("revealing turns the named shadow voxels, and only those, in a new grid") {
-  const auto grid = some_grid();
-  std::vector<std::uint8_t> seen(grid->count(VoxelState::shadow));
-  for (std::size_t i = 0; i < seen.size(); i += 3) seen[i] = 1;
-  const auto revealed = grid->with_revealed(seen);
-  const Points before = grid->centres(VoxelState::shadow);
+  const GridGeometry geometry = geometry_of(37, 24, 19);
+  const auto grid = make_grid(geometry, random_voxels(4));
+  const Points shadow = grid->centres(VoxelState::shadow);
+  std::vector<std::uint8_t> seen(shadow.size());
   for (std::size_t i = 0; i < seen.size(); ++i) {
-    const auto voxel = *grid->geometry().voxel_at(before[i].cast<double>());
-    CHECK(revealed->at(voxel) == (seen[i] ? VoxelState::revealed : VoxelState::shadow));
-    CHECK(grid->at(voxel) == VoxelState::shadow);
+    seen[i] = i % 3 == 0 || shadow[i].x() < -0.2f;  // whole blocks, and parts of others
   }
-  CHECK(revealed->count(VoxelState::revealed) == (seen.size() + 2) / 3);
-  CHECK(revealed->count(VoxelState::shadow) + revealed->count(VoxelState::revealed) == seen.size());
-  CHECK(revealed->count(VoxelState::occupied) == grid->count(VoxelState::occupied));
+  const auto after = grid->with_revealed(seen);
+  std::uint64_t turned = 0;
+  for (std::size_t i = 0; i < seen.size(); ++i) {
+    const auto voxel = *geometry.voxel_at(shadow[i].cast<double>());
+    CHECK(after->at(voxel) == (seen[i] ? VoxelState::revealed : VoxelState::shadow));
+    turned += seen[i];
+  }
+  std::array<std::uint64_t, 4> counts{};
+  for_each_voxel(geometry, [&](const Eigen::Vector3i& voxel) {
+    ++counts[std::size_t(after->at(voxel))];
+    const test::MadeVoxel made = random_voxels(4)(voxel);
+    CHECK(grid->at(voxel) == made.state);
+    CHECK(after->unseen(voxel) == made.unseen);
+    CHECK(after->measured(voxel) == made.measured);
+    if (made.state != VoxelState::shadow) CHECK(after->at(voxel) == made.state);
+  });
+  for (const VoxelState state : kAllStates) {
+    CHECK(after->count(state) == counts[std::size_t(state)]);
+    CHECK(after->centres(state).size() == counts[std::size_t(state)]);
+  }
+  CHECK(after->count(VoxelState::revealed) == grid->count(VoxelState::revealed) + turned);
+  CHECK(after->report().unseen_shadow == grid->report().unseen_shadow);
   seen.pop_back();
   test::expect_bad_input("revealed voxels", "flags", [&] { grid->with_revealed(seen); });
-}
-
-TEST_CASE("grid.vdb holds the states, and its transform maps indices to voxel centres") {
-  const auto grid = some_grid();
-  const test::TemporaryFolder folder;
-  grid->write_vdb(folder / "grid.vdb");
-  openvdb::initialize();
-  openvdb::io::File file((folder / "grid.vdb").string());
-  file.open();
-  const auto read = openvdb::gridPtrCast<openvdb::Int32Grid>(file.readGrid("state"));
-  const Eigen::Vector3i n = grid->geometry().size();
-  std::size_t wrong = 0;
-  for (int i = -1; i <= n.x(); ++i)
-    for (int j = -1; j <= n.y(); ++j)
-      for (int k = -1; k <= n.z(); ++k) {
-        const Eigen::Vector3i voxel(i, j, k);
-        const bool inside = grid->geometry().contains(voxel);
-        const int expected = inside ? int(grid->at(voxel)) : 0;
-        wrong += read->tree().getValue({i, j, k}) != expected;
-        wrong += read->tree().isValueOn({i, j, k}) != (expected != 0);
-      }
-  CHECK(wrong == 0);
-  const openvdb::Vec3d centre = read->indexToWorld(openvdb::Coord(3, 4, 5));
-  CHECK((grid->geometry().centre({3, 4, 5}) - Eigen::Vector3d(centre.x(), centre.y(), centre.z()))
-            .norm() < 1e-12);
-  test::expect_bad_input("missing", "", [&] { grid->write_vdb(folder / "missing/grid.vdb"); });
 }
 
 }  // namespace vantage

@@ -1,14 +1,61 @@
 #include "vantage/volume/state_grid.hpp"
 
 #include <fmt/format.h>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
 #include "openvdb.hpp"
 
-#include "state_grid_impl.hpp"
+#include <openvdb/tools/Prune.h>
+
+#include "mask_blocks.hpp"
+#include "state_masks.hpp"
 #include "vantage/raycore/error.hpp"
-#include "vantage/raycore/file.hpp"
 #include "voxel_faces.hpp"
 
 namespace vantage {
+namespace detail {
+namespace {
+
+/// For each block, how many voxels are on in the blocks before it; the last entry is the total.
+std::vector<std::size_t> counts_before(const std::vector<MaskBlock>& blocks) {
+  std::vector<std::size_t> before{0};
+  before.reserve(blocks.size() + 1);
+  for (const MaskBlock& block : blocks) {
+    before.push_back(before.back() + std::size_t(block.mask ? block.mask->countOn() : 512));
+  }
+  return before;
+}
+
+Points centres_of(const openvdb::MaskTree& voxels, const GridGeometry& geometry) {
+  const std::vector<MaskBlock> blocks = mask_blocks(voxels);
+  const std::vector<std::size_t> before = counts_before(blocks);
+  Points points(before.back());
+  const auto fill = [&](const tbb::blocked_range<std::size_t>& range) {
+    for (std::size_t b = range.begin(); b < range.end(); ++b) {
+      std::size_t next = before[b];
+      const Eigen::Vector3i first = to_voxel(blocks[b].origin);
+      for_each_on(blocks[b].words(), [&](int x, int y, int z) {
+        const Eigen::Vector3i voxel = first + Eigen::Vector3i(x, y, z);
+        points.set(next++, geometry.centre(voxel).cast<float>());
+      });
+    }
+  };
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, blocks.size()), fill);
+  return points;
+}
+
+void move_voxels(const openvdb::Coord& origin, const BlockWords& moved, openvdb::MaskTree& from,
+                 openvdb::MaskTree& to) {
+  auto* const source = from.touchLeaf(origin);
+  BlockMask left = source->getValueMask();
+  left -= mask_of(moved);
+  source->setValueMask(left);
+  auto* const target = to.touchLeaf(origin);
+  target->setValueMask(target->getValueMask() | mask_of(moved));
+}
+
+}  // namespace
+}  // namespace detail
 
 StateGrid::StateGrid(std::unique_ptr<const detail::StateGridImpl> impl) : impl_(std::move(impl)) {}
 StateGrid::~StateGrid() = default;
@@ -18,27 +65,33 @@ const GridGeometry& StateGrid::geometry() const noexcept {
 }
 
 VoxelState StateGrid::at(const Eigen::Vector3i& voxel) const {
-  return VoxelState(impl_->states.getValue(detail::to_coord(voxel)));
+  const openvdb::Coord place = detail::to_coord(voxel);
+  if (impl_->occupied.isValueOn(place)) return VoxelState::occupied;
+  if (impl_->shadow.isValueOn(place)) return VoxelState::shadow;
+  if (impl_->revealed.isValueOn(place)) return VoxelState::revealed;
+  return VoxelState::free;
 }
 
 bool StateGrid::measured(const Eigen::Vector3i& voxel) const {
   return impl_->measured.isValueOn(detail::to_coord(voxel));
 }
 
+bool StateGrid::unseen(const Eigen::Vector3i& voxel) const {
+  return impl_->unseen.isValueOn(detail::to_coord(voxel));
+}
+
 std::uint64_t StateGrid::count(VoxelState state) const noexcept {
   return impl_->counts[std::size_t(state)];
 }
 
+const VolumeReport& StateGrid::report() const noexcept {
+  return impl_->report;
+}
+
 Points StateGrid::centres(VoxelState state) const {
-  Points points;
-  points.reserve(count(state));
-  for (auto leaf = impl_->states.cbeginLeaf(); leaf; ++leaf) {
-    for (auto value = leaf->cbeginValueOn(); value; ++value) {
-      if (*value != std::int32_t(state)) continue;
-      points.push_back(geometry().centre(detail::to_voxel(value.getCoord())).cast<float>());
-    }
-  }
-  return points;
+  return detail::with_voxels(*impl_, state, [&](const openvdb::MaskTree& voxels) {
+    return detail::centres_of(voxels, geometry());
+  });
 }
 
 std::shared_ptr<const StateGrid> StateGrid::with_revealed(
@@ -49,46 +102,31 @@ std::shared_ptr<const StateGrid> StateGrid::with_revealed(
   }
   auto impl = std::make_unique<detail::StateGridImpl>(*impl_);
   std::size_t next = 0;
-  for (auto leaf = impl->states.beginLeaf(); leaf; ++leaf) {
-    for (auto value = leaf->beginValueOn(); value; ++value) {
-      if (*value != std::int32_t(VoxelState::shadow) || seen[next++] == 0) continue;
-      value.setValue(std::int32_t(VoxelState::revealed));
-      --impl->counts[std::size_t(VoxelState::shadow)];
-      ++impl->counts[std::size_t(VoxelState::revealed)];
-    }
+  for (const detail::MaskBlock& block : detail::mask_blocks(impl_->shadow)) {
+    detail::BlockWords revealed{};
+    detail::for_each_on(block.words(), [&](int x, int y, int z) {
+      const bool on = seen[next++] != 0;
+      revealed[std::size_t(x)] |= std::uint64_t(on) << (8 * y + z);
+    });
+    const std::uint64_t count = std::uint64_t(detail::count_on(revealed));
+    if (count == 0) continue;
+    detail::move_voxels(block.origin, revealed, impl->shadow, impl->revealed);
+    impl->counts[std::size_t(VoxelState::shadow)] -= count;
+    impl->counts[std::size_t(VoxelState::revealed)] += count;
   }
+  openvdb::tools::prune(impl->shadow);
+  openvdb::tools::prune(impl->revealed);
   return std::make_shared<const StateGrid>(std::move(impl));
 }
 
 TriangleMesh StateGrid::faces(VoxelState state) const {
-  openvdb::MaskTree voxels(false);
-  for (auto value = impl_->states.cbeginValueOn(); value; ++value) {
-    if (*value == std::int32_t(state)) voxels.setValueOn(value.getCoord());
-  }
-  return detail::voxel_faces(voxels, geometry());
+  return detail::with_voxels(*impl_, state, [&](const openvdb::MaskTree& voxels) {
+    return detail::voxel_faces(voxels, geometry());
+  });
 }
 
 TriangleMesh StateGrid::measured_faces() const {
   return detail::voxel_faces(impl_->measured, geometry());
-}
-
-void StateGrid::write_vdb(const std::filesystem::path& path) const {
-  openvdb::initialize();
-  // A copy that shares nothing but the tree: the file's transform is at the voxel's centre.
-  const openvdb::Int32Grid::Ptr grid =
-      openvdb::Int32Grid::create(std::make_shared<openvdb::Int32Tree>(impl_->states));
-  const Eigen::Vector3d first = geometry().centre(Eigen::Vector3i::Zero());
-  openvdb::math::Transform::Ptr transform =
-      openvdb::math::Transform::createLinearTransform(geometry().voxel_size_m());
-  transform->postTranslate({first.x(), first.y(), first.z()});
-  grid->setTransform(transform);
-  grid->setName("state");
-  grid->insertMeta("states", openvdb::StringMetadata("0 free, 1 occupied, 2 shadow, 3 revealed"));
-  write_file_with(path, [&](const std::filesystem::path& temporary) {
-    openvdb::io::File file(temporary.string());
-    file.setCompression(openvdb::io::COMPRESS_ZIP | openvdb::io::COMPRESS_ACTIVE_MASK);
-    file.write({grid});
-  });
 }
 
 }  // namespace vantage

@@ -1,119 +1,160 @@
 #include "voxel_faces.hpp"
 
-#include <algorithm>
-#include <map>
-#include <tuple>
+#include <tbb/parallel_for.h>
+#include <tbb/parallel_sort.h>
 
+#include <algorithm>
+#include <bit>
+#include <iterator>
+#include <span>
+#include <utility>
+
+#include "face_patches.hpp"
 #include "state_grid_impl.hpp"
 
 namespace vantage::detail {
 namespace {
 
-/// A unit face in its plane.
-struct Cell {
-  int row, column;
-  auto operator<=>(const Cell&) const = default;
-};
-
-/// columns [begin, end) of rows [top, bottom).
+/// Columns [begin, end) of rows [top, bottom).
 struct Rectangle {
   int top, bottom, begin, end;
 };
 
-/// Which way a face looks, and in which plane it lies (index coordinate along `axis`).
-struct Plane {
-  int axis, sign, position;
-  auto operator<=>(const Plane&) const = default;
-};
-
-using FacesByPlane = std::map<Plane, std::vector<Cell>>;
-
-FacesByPlane collect(const openvdb::MaskTree& voxels) {
-  FacesByPlane faces;
-  openvdb::tree::ValueAccessor<const openvdb::MaskTree> at(voxels);
-  for (auto leaf = voxels.cbeginLeaf(); leaf; ++leaf) {
-    for (auto value = leaf->cbeginValueOn(); value; ++value) {
-      const openvdb::Coord c = value.getCoord();
-      for (int axis = 0; axis < 3; ++axis) {
-        for (const int sign : {-1, 1}) {
-          openvdb::Coord neighbour = c;
-          neighbour[axis] += sign;
-          if (at.isValueOn(neighbour)) continue;
-          faces[{axis, sign, c[axis] + (sign > 0)}].push_back(
-              {c[(axis + 1) % 3], c[(axis + 2) % 3]});
-        }
-      }
-    }
-  }
-  return faces;
-}
-
-std::vector<Rectangle> merge(std::vector<Cell>& cells) {
-  std::sort(cells.begin(), cells.end());
-  std::vector<Rectangle> done, open;  // open: rectangles that end with the row before
-  for (std::size_t i = 0; i < cells.size();) {
-    const int row = cells[i].row;
-    std::vector<Rectangle> runs;
-    for (; i < cells.size() && cells[i].row == row; ++i) {
-      if (!runs.empty() && runs.back().end == cells[i].column) {
-        ++runs.back().end;
-      } else {
-        runs.push_back({row, row + 1, cells[i].column, cells[i].column + 1});
-      }
-    }
-    for (const Rectangle& above : open) {  // both lists are sorted by their first column
-      const auto below = std::find_if(runs.begin(), runs.end(), [&](const Rectangle& run) {
-        return above.bottom == row && run.begin == above.begin && run.end == above.end;
-      });
-      below == runs.end() ? done.push_back(above) : void(below->top = above.top);
-    }
-    open = std::move(runs);
-  }
-  done.insert(done.end(), open.begin(), open.end());
-  return done;
-}
-
-class MeshOfRectangles {
+/// Merges the faces of one plane, row by row from the top.
+class Merger {
  public:
-  explicit MeshOfRectangles(const GridGeometry& geometry) : geometry_(geometry) {}
-
-  void add(const Plane& plane, const Rectangle& r) {
-    const std::uint32_t a = vertex(plane, r.top, r.begin), b = vertex(plane, r.bottom, r.begin);
-    const std::uint32_t c = vertex(plane, r.bottom, r.end), d = vertex(plane, r.top, r.end);
-    if (plane.sign > 0) {
-      triangles_.push_back({a, b, c}), triangles_.push_back({a, c, d});
-    } else {
-      triangles_.push_back({a, c, b}), triangles_.push_back({a, d, c});
+  explicit Merger(std::span<const FacePatch> plane) {
+    for (auto begin = plane.begin(); begin != plane.end();) {
+      const auto end =
+          std::find_if(begin, plane.end(), [&](const FacePatch& p) { return p.row != begin->row; });
+      for (int row = 0; row < 8; ++row) {
+        runs_.clear();
+        for (auto patch = begin; patch != end; ++patch) add_runs(*patch, row);
+        close_row(begin->row + row);
+      }
+      begin = end;
     }
+    done_.insert(done_.end(), open_.begin(), open_.end());
   }
-  TriangleMesh finish() { return {std::move(vertices_), std::move(triangles_), "voxel faces"}; }
+
+  std::vector<Rectangle> take() { return std::move(done_); }
 
  private:
-  std::uint32_t vertex(const Plane& plane, int row, int column) {
-    Eigen::Vector3i index;
-    index[plane.axis] = plane.position;
-    index[(plane.axis + 1) % 3] = row;
-    index[(plane.axis + 2) % 3] = column;
-    const auto [entry, is_new] = ids_.try_emplace(std::tuple{index.x(), index.y(), index.z()},
-                                                  std::uint32_t(vertices_.size()));
-    if (is_new) vertices_.push_back(geometry_.corner(index).cast<float>());
-    return entry->second;
+  void add_runs(const FacePatch& patch, int row) {
+    unsigned faces = unsigned(patch.faces >> (8 * row)) & 0xff;
+    for (int column = patch.column; faces != 0;) {
+      const int gap = std::countr_zero(faces), length = std::countr_one(faces >> gap);
+      const int begin = column + gap, end = begin + length;
+      if (!runs_.empty() && runs_.back().end == begin) {
+        runs_.back().end = end;
+      } else {
+        runs_.push_back({patch.row + row, patch.row + row + 1, begin, end});
+      }
+      faces >>= gap + length;
+      column = end;
+    }
   }
 
-  const GridGeometry& geometry_;
-  std::map<std::tuple<int, int, int>, std::uint32_t> ids_;
-  std::vector<Eigen::Vector3f> vertices_;
-  std::vector<Triangle> triangles_;
+  /// Rectangles that end with the row before go on in a run of the same extent, or are done. Both
+  /// lists are sorted by their first column.
+  void close_row(int row) {
+    auto run = runs_.begin();
+    for (const Rectangle& above : open_) {
+      while (run != runs_.end() && run->begin < above.begin) ++run;
+      const bool goes_on = above.bottom == row && run != runs_.end() && run->begin == above.begin &&
+                           run->end == above.end;
+      goes_on ? void(run->top = above.top) : done_.push_back(above);
+    }
+    open_.swap(runs_);
+  }
+
+  std::vector<Rectangle> done_, open_, runs_;  // open_: those that end with the row before
 };
+
+struct PlaneRectangles {
+  FacePlane plane;
+  std::vector<Rectangle> rectangles;
+};
+
+std::vector<PlaneRectangles> merged(const std::vector<FacePatch>& patches) {
+  std::vector<std::span<const FacePatch>> planes;
+  for (auto begin = patches.begin(); begin != patches.end();) {
+    const auto end = std::find_if(begin, patches.end(),
+                                  [&](const FacePatch& p) { return p.plane != begin->plane; });
+    planes.emplace_back(begin, end);
+    begin = end;
+  }
+  std::vector<PlaneRectangles> result(planes.size());
+  tbb::parallel_for(std::size_t(0), planes.size(), [&](std::size_t i) {
+    result[i] = {planes[i].front().plane, Merger(planes[i]).take()};
+  });
+  return result;
+}
+
+/// Corners of voxels as single numbers.
+class CornerNumbers {
+ public:
+  explicit CornerNumbers(const GridGeometry& geometry)
+      : ny_(std::uint64_t(geometry.size().y()) + 1), nz_(std::uint64_t(geometry.size().z()) + 1) {}
+
+  std::uint64_t number(const FacePlane& plane, int row, int column) const {
+    Eigen::Vector3i corner;
+    corner[plane.axis] = plane.position;
+    corner[(plane.axis + 1) % 3] = row;
+    corner[(plane.axis + 2) % 3] = column;
+    return (std::uint64_t(corner.x()) * ny_ + std::uint64_t(corner.y())) * nz_ +
+           std::uint64_t(corner.z());
+  }
+  Eigen::Vector3i corner(std::uint64_t number) const {
+    return {int(number / nz_ / ny_), int(number / nz_ % ny_), int(number % nz_)};
+  }
+
+ private:
+  std::uint64_t ny_, nz_;
+};
+
+/// The corners of all rectangles, four each: as (top, begin), (bottom, begin), (bottom, end),
+/// (top, end) where the faces look up their axis, the other way round where they look down.
+std::vector<std::uint64_t> rectangle_corners(const std::vector<PlaneRectangles>& planes,
+                                             const CornerNumbers& numbers) {
+  std::vector<std::uint64_t> corners;
+  for (const auto& [plane, rectangles] : planes) {
+    for (const Rectangle& r : rectangles) {
+      corners.push_back(numbers.number(plane, r.top, r.begin));
+      corners.push_back(numbers.number(plane, r.bottom, r.begin));
+      corners.push_back(numbers.number(plane, r.bottom, r.end));
+      corners.push_back(numbers.number(plane, r.top, r.end));
+      if (plane.sign < 0) std::swap(*std::prev(corners.end()), *std::prev(corners.end(), 3));
+    }
+  }
+  return corners;
+}
 
 }  // namespace
 
 TriangleMesh voxel_faces(const openvdb::MaskTree& voxels, const GridGeometry& geometry) {
-  MeshOfRectangles mesh(geometry);
-  for (auto& [plane, cells] : collect(voxels)) {
-    for (const Rectangle& rectangle : merge(cells)) mesh.add(plane, rectangle);
+  const CornerNumbers numbers(geometry);
+  const std::vector<std::uint64_t> corners =
+      rectangle_corners(merged(face_patches(voxels)), numbers);
+  std::vector<std::uint64_t> used = corners;
+  tbb::parallel_sort(used);
+  used.erase(std::unique(used.begin(), used.end()), used.end());
+
+  std::vector<Eigen::Vector3f> vertices(used.size());
+  for (std::size_t i = 0; i < used.size(); ++i) {
+    vertices[i] = geometry.corner(numbers.corner(used[i])).cast<float>();
   }
-  return mesh.finish();
+  std::vector<Triangle> triangles(corners.size() / 2);
+  tbb::parallel_for(std::size_t(0), corners.size() / 4, [&](std::size_t r) {
+    std::array<std::uint32_t, 4> v;
+    for (std::size_t c = 0; c < 4; ++c) {
+      const auto entry = std::lower_bound(used.begin(), used.end(), corners[4 * r + c]);
+      v[c] = std::uint32_t(entry - used.begin());
+    }
+    triangles[2 * r] = {v[0], v[1], v[2]};
+    triangles[2 * r + 1] = {v[0], v[2], v[3]};
+  });
+  return {std::move(vertices), std::move(triangles), "voxel faces"};
 }
 
 }  // namespace vantage::detail

@@ -55,11 +55,12 @@ class VANTAGE_API StateGrid {
 
   const VolumeReport& report() const noexcept;
 
-  /// The centres of all voxels in a state, world frame, block of 8³ by block: neighbours in the
-  /// list are neighbours in space.
+  /// The centres of all voxels in a state, world frame, block of 8³ by block (in the order of an
+  /// OpenVDB tree), in a block x slowest and z fastest: neighbours in the list are neighbours in
+  /// space. The order does not depend on how the grid came about.
   Points centres(VoxelState state) const;
 
-  /// This grid with some of its shadow voxels revealed.
+  /// This grid with some of its shadow voxels revealed; unseen ones stay unseen.
   /// @param seen 1 or 0 for each of `centres(VoxelState::shadow)`, in that order.
   /// @throws Error bad_input for another number of flags.
   std::shared_ptr<const StateGrid> with_revealed(std::span<const std::uint8_t> seen) const;
@@ -71,9 +72,14 @@ class VANTAGE_API StateGrid {
   /// The same for the measured part of the occupied voxels.
   TriangleMesh measured_faces() const;
 
-  /// Writes OpenVDB's int32 grid `state`; its transform maps an index to the voxel's centre.
+  /// Writes an OpenVDB file with the int32 grid `state`, and for programs that read no int32 grids
+  /// the bool grids `occupied`, `shadow`, `revealed`, `measured` and `unseen` (true and active in
+  /// their voxels). The transform of all maps an index to the voxel's centre.
   /// @throws Error as `write_file` does.
   void write_vdb(const std::filesystem::path& path) const;
+
+  /// For this library's own sources.
+  const detail::StateGridImpl& impl() const noexcept { return *impl_; }
 
  private:
   std::unique_ptr<const detail::StateGridImpl> impl_;

@@ -1,0 +1,30 @@
+#pragma once
+
+#include "openvdb.hpp"
+
+#include <compare>
+#include <cstdint>
+#include <vector>
+
+namespace vantage::detail {
+
+/// Which way faces look, and in which plane they lie: index coordinate `position` along `axis`.
+struct FacePlane {
+  std::int8_t axis, sign;
+  std::int32_t position;
+  auto operator<=>(const FacePlane&) const = default;
+};
+
+/// 8 × 8 faces in a plane, bit 8 · row + column. Rows count along the axis after the plane's
+/// (x after z), columns along the one after that.
+struct FacePatch {
+  FacePlane plane;
+  std::int32_t row, column;  ///< index coordinates of the first
+  std::uint64_t faces;
+  auto operator<=>(const FacePatch&) const = default;
+};
+
+/// The faces between the active voxels and all others, sorted.
+std::vector<FacePatch> face_patches(const openvdb::MaskTree& voxels);
+
+}  // namespace vantage::detail
