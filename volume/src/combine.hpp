@@ -1,0 +1,27 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+
+#include "depth_evidence.hpp"
+#include "known_objects.hpp"
+#include "sight.hpp"
+#include "vantage/volume/state_grid.hpp"
+
+namespace vantage::detail {
+
+/// All that one camera contributes.
+struct CameraEvidence {
+  PinholeCamera camera;  ///< in the grid's frame
+  Sight sight;
+  std::optional<DepthEvidence> depth;
+
+  CameraEvidence(const PinholeCamera& c, const BlockLayout& layout) : camera(c), sight(layout) {}
+};
+
+/// Decides every voxel from what is known and what the cameras say, as `classify` documents it.
+std::shared_ptr<const StateGrid> combine(const GridGeometry& geometry, const KnownObjects& known,
+                                         std::span<const CameraEvidence> cameras, bool anti_alias);
+
+}  // namespace vantage::detail

@@ -1,0 +1,55 @@
+#include "known_objects.hpp"
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+#include <map>
+
+namespace vantage::detail {
+namespace {
+
+std::string open_mesh_warning(const KnownObject& object, const MeshTopology& topology) {
+  std::string text = fmt::format(
+      "object {}: its mesh is not closed ({} of its {} edges belong to an odd number of "
+      "triangles), "
+      "so it has no inside: only the voxels at its surface count as occupied",
+      object.name, topology.unmatched_edges, topology.edges.size());
+  if (object.mesh->dropped_degenerate() > 0) {
+    text += fmt::format(". {} faces without area were dropped: if they closed it, repair the mesh",
+                        object.mesh->dropped_degenerate());
+  }
+  return text;
+}
+
+}  // namespace
+
+KnownObjects::KnownObjects(const WorldModel& world, const GridFrame& frame,
+                           const Pose& T_grid_world, const StopToken& stop)
+    : solid(frame.layout), surface_blocks(frame.layout.block_count()) {
+  std::vector<const KnownObject*> objects;
+  for_each_known(world, [&](const KnownObject& object) { objects.push_back(&object); });
+  std::map<const TriangleMesh*, std::shared_ptr<const MeshTopology>> topologies;
+  for (const KnownObject* object : objects) {
+    std::shared_ptr<const MeshTopology>& topology = topologies[object->mesh.get()];
+    if (!topology) topology = std::make_shared<const MeshTopology>(*object->mesh);
+    meshes.push_back({object->mesh, topology, T_grid_world * object->T_world_object});
+    names.push_back(object->name);
+    if (topology->closure == Closure::open && !object->mesh->empty()) {
+      warnings.push_back(open_mesh_warning(*object, *topology));
+    }
+  }
+  voxels.resize(objects.size());
+  tbb::parallel_for(std::size_t(0), objects.size(), [&](std::size_t i) {
+    if (stop.stop_requested()) return;
+    const TriangleMesh mesh = meshes[i].mesh->transformed(meshes[i].T_grid_mesh);
+    voxels[i] = object_voxels(mesh, meshes[i].topology->closure, frame.layout, frame.voxel_size_m);
+    mark_surface_blocks(mesh, frame.layout, frame.voxel_size_m, surface_blocks);
+  });
+  for (const ObjectVoxels& object : voxels) {
+    for (const ObjectVoxels::Block& block : object.blocks) {
+      solid.set(block.block, solid.bits(block.block) | block.bits);
+    }
+  }
+}
+
+}  // namespace vantage::detail

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "block_set.hpp"
+#include "mesh_topology.hpp"
+#include "vantage/volume/grid_geometry.hpp"
+
+namespace vantage::detail {
+
+/// The voxels that one object fills, block by block; only blocks that have some, in ascending
+/// order.
+struct ObjectVoxels {
+  struct Block {
+    std::size_t block;
+    BlockBits bits;
+  };
+  std::vector<Block> blocks;
+};
+
+/// The voxels whose centres are inside a closed mesh, or which an open mesh's surface touches.
+///
+/// A line along z through the centres of each column of voxels is cut by the surface. Whether a
+/// triangle meets a line is decided exactly, and a line through an edge or a vertex is treated as
+/// if it passed infinitesimally beside it, always on the same side: so it meets exactly one of the
+/// triangles that meet there, and no column ever leaks.
+///
+/// @param mesh in the grid's frame: metres from `GridGeometry::origin()`.
+ObjectVoxels object_voxels(const TriangleMesh& mesh, Closure closure, const BlockLayout& layout,
+                           double voxel_size_m);
+
+/// Marks with 1 the blocks that a mesh's surface may pass through; never misses one. May run for
+/// several meshes at once.
+void mark_surface_blocks(const TriangleMesh& mesh, const BlockLayout& layout, double voxel_size_m,
+                         std::vector<std::uint8_t>& marks);
+
+}  // namespace vantage::detail

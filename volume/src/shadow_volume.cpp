@@ -1,0 +1,114 @@
+#include "vantage/volume/shadow_volume.hpp"
+
+#include <fmt/format.h>
+
+#include <optional>
+
+#include "combine.hpp"
+#include "depth_evidence.hpp"
+#include "known_objects.hpp"
+#include "sight.hpp"
+#include "vantage/raycore/error.hpp"
+
+namespace vantage {
+namespace {
+
+void check(const WorldModel& world) {
+  detail::for_each_known(world, [](const KnownObject& object) {
+    if (object.mesh == nullptr) throw bad_input("object " + object.name, "it has no mesh");
+  });
+  for (const Observer& camera : world.cameras) {
+    if (camera.depth != nullptr) PosedDepth(camera.camera, camera.depth, "camera " + camera.name);
+  }
+}
+
+const WorldModel& checked(const WorldModel& world, const VolumeOptions& options) {
+  options.check();
+  check(world);
+  return world;
+}
+
+}  // namespace
+
+struct ShadowVolume::Impl {
+  GridGeometry geometry;
+  VolumeOptions options;
+  StopToken stop;
+  Pose T_grid_world;
+  detail::GridFrame frame;
+  detail::KnownObjects known;
+  std::unique_ptr<const detail::Occluders> occluders;
+  std::vector<std::string> names;  ///< of the cameras
+  std::vector<detail::CameraEvidence> cameras;
+
+  Impl(const WorldModel& world, const GridGeometry& g, const VolumeOptions& o, const StopToken& s)
+      : geometry(g),
+        options(o),
+        stop(s),
+        T_grid_world(Pose::from_translation(-g.origin())),
+        frame(g),
+        known(checked(world, o), frame, T_grid_world, s),
+        occluders(o.occluders == OccluderMode::mesh
+                      ? detail::mesh_occluders(known.meshes)
+                      : detail::voxel_occluders(known.solid, frame.voxel_size_m)) {}
+
+  void trace(detail::CameraEvidence& camera) {
+    camera.sight = detail::trace_sight(
+        camera.camera, {frame, known.solid, known.surface_blocks, *occluders}, stop);
+  }
+
+  void measure(detail::CameraEvidence& camera, const DepthImage* depth) {
+    camera.depth.reset();
+    if (depth == nullptr) return;
+    camera.depth = detail::compare_with_depth(camera.camera, *depth, frame, camera.sight.covered,
+                                              options, stop);
+  }
+
+  detail::CameraEvidence& camera_at(std::size_t index) {
+    if (index < cameras.size()) return cameras[index];
+    throw bad_input("camera index",
+                    fmt::format("{} of a world with {} cameras", index, cameras.size()));
+  }
+};
+
+ShadowVolume::ShadowVolume(const WorldModel& world, const GridGeometry& geometry,
+                           const VolumeOptions& options, const StopToken& stop)
+    : impl_(std::make_unique<Impl>(world, geometry, options, stop)) {
+  std::size_t steps = 0;
+  for (const Observer& observer : world.cameras) steps += observer.depth != nullptr ? 2 : 1;
+  stop.expect(steps * impl_->frame.layout.chunk_count());
+  for (const Observer& observer : world.cameras) {
+    const PinholeCamera camera =
+        observer.camera.moved_to(impl_->T_grid_world * observer.camera.T_world_cam());
+    impl_->names.push_back(observer.name);
+    impl_->cameras.emplace_back(camera, impl_->frame.layout);
+    if (stop.stop_requested()) continue;
+    impl_->trace(impl_->cameras.back());
+    impl_->measure(impl_->cameras.back(), observer.depth.get());
+  }
+}
+
+ShadowVolume::~ShadowVolume() = default;
+
+void ShadowVolume::set_depth(std::size_t camera, std::shared_ptr<const DepthImage> depth) {
+  detail::CameraEvidence& evidence = impl_->camera_at(camera);
+  if (depth != nullptr) PosedDepth(evidence.camera, depth, "camera " + impl_->names[camera]);
+  impl_->measure(evidence, depth.get());
+}
+
+void ShadowVolume::move_camera(std::size_t camera, const Pose& T_world_cam,
+                               std::shared_ptr<const DepthImage> depth) {
+  detail::CameraEvidence& evidence = impl_->camera_at(camera);
+  if (depth != nullptr) PosedDepth(evidence.camera, depth, "camera " + impl_->names[camera]);
+  evidence.camera = evidence.camera.moved_to(impl_->T_grid_world * T_world_cam);
+  impl_->trace(evidence);
+  impl_->measure(evidence, depth.get());
+}
+
+std::shared_ptr<const StateGrid> ShadowVolume::grid() const {
+  if (impl_->stop.stop_requested()) return nullptr;
+  return detail::combine(impl_->geometry, impl_->known, impl_->cameras,
+                         impl_->options.anti_aliased());
+}
+
+}  // namespace vantage
