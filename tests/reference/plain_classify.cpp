@@ -1,6 +1,7 @@
 #include "reference/plain_classify.hpp"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -43,8 +44,9 @@ bool plain_in_view(const PinholeCamera& camera, const Eigen::Vector3d& point, bo
          p->depth >= camera.range().near_m && p->depth <= camera.range().far_m;
 }
 
-PlainClassifier::PlainClassifier(const WorldModel& world, const GridGeometry& geometry)
-    : world_(world), geometry_(geometry) {
+PlainClassifier::PlainClassifier(const WorldModel& world, const GridGeometry& geometry,
+                                 const VolumeOptions& options)
+    : world_(world), geometry_(geometry), options_(options) {
   for (const auto* list : {&world.objects, &world.static_structures}) {
     for (const KnownObject& object : *list) {
       known_.add(*object.mesh, object.T_world_object, ObjectId(solids_.size()));
@@ -88,23 +90,41 @@ bool PlainClassifier::holds_measured_point(const Observer& observer, const Eigen
   return holds;
 }
 
+PlainClassifier::Says PlainClassifier::compare_with_depth(const Observer& observer,
+                                                          const Eigen::Vector3i& voxel,
+                                                          bool& close_call) const {
+  if (holds_measured_point(observer, voxel, close_call)) return Says::surface;
+  const Eigen::Vector3d centre = geometry_.centre(voxel);
+  if (!plain_in_view(observer.camera, centre, close_call)) return Says::nothing;
+  const ImagePoint p = *observer.camera.project(centre);
+  close_call |=
+      near(p.u + 0.5, std::round(p.u + 0.5), 1e-2) || near(p.v + 0.5, std::round(p.v + 0.5), 1e-2);
+  const Intrinsics& k = observer.camera.intrinsics();
+  const int u = std::min(int(std::floor(p.u + 0.5)), k.width - 1);
+  const int v = std::min(int(std::floor(p.v + 0.5)), k.height - 1);
+  const double d = double(observer.depth->at(u, v));
+  const DepthRange& range = observer.camera.range();
+  if (!(d >= range.near_m && d <= range.far_m)) return Says::nothing;
+  const double band =
+      std::max(geometry_.voxel_size_m(), options_.band_sigmas * options_.noise.sigma_m(d));
+  close_call |= near(std::abs(p.depth - d), band / 2, kCloseCall);
+  if (std::abs(p.depth - d) <= band / 2) return Says::surface;
+  return p.depth < d ? Says::free : Says::nothing;
+}
+
+bool PlainClassifier::sees_through(const Observer& observer, const Eigen::Vector3i& voxel,
+                                   bool& close_call) const {
+  return observer.depth != nullptr && compare_with_depth(observer, voxel, close_call) == Says::free;
+}
+
 PlainClassifier::Says PlainClassifier::ask(const Observer& observer, const Eigen::Vector3i& voxel,
                                            bool& close_call) const {
   const Eigen::Vector3d centre = geometry_.centre(voxel);
-  if (!plain_in_view(observer.camera, centre, close_call)) return Says::nothing;
   if (observer.depth != nullptr) {
-    const ImagePoint p = *observer.camera.project(centre);
-    const double u = std::floor(p.u + 0.5), v = std::floor(p.v + 0.5);
-    close_call |= near(p.u + 0.5, std::round(p.u + 0.5), 1e-2) ||
-                  near(p.v + 0.5, std::round(p.v + 0.5), 1e-2);
-    const double d = double(observer.depth->at(int(u), int(v)));
-    const DepthRange& range = observer.camera.range();
-    const bool known = d >= range.near_m && d <= range.far_m;
-    const double half_voxel = geometry_.voxel_size_m() / 2;
-    if (known) close_call |= near(std::abs(p.depth - d), half_voxel, kCloseCall);
-    if (holds_measured_point(observer, voxel, close_call)) return Says::surface;
-    if (known && std::abs(p.depth - d) <= half_voxel) return Says::surface;
-    if (!known || p.depth > d) return Says::nothing;
+    const Says says = compare_with_depth(observer, voxel, close_call);
+    if (says != Says::free) return says;
+  } else if (!plain_in_view(observer.camera, centre, close_call)) {
+    return Says::nothing;
   }
   const Verdict verdict = hidden(observer.camera, centre);
   close_call |= verdict.close_call;

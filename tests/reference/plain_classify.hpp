@@ -4,6 +4,7 @@
 #include "vantage/raycore/world_model.hpp"
 #include "vantage/volume/grid_geometry.hpp"
 #include "vantage/volume/state_grid.hpp"
+#include "vantage/volume/volume_options.hpp"
 
 namespace vantage::test {
 
@@ -15,15 +16,20 @@ struct PlainState {
   bool close_call = false;
 };
 
-/// The slow, obvious twin of `classify`: voxel by voxel, camera by camera, in double precision,
-/// every ray against every triangle; a point is inside a mesh if the mesh surrounds it (the sum of
-/// the triangles' solid angles is 4π).
+/// The slow, obvious twin of `classify` in `mesh` mode: voxel by voxel, camera by camera, in double
+/// precision, every ray against every triangle; a point is inside a mesh if the mesh surrounds it
+/// (the sum of the triangles' solid angles is 4π). Knows closed meshes only, and does no
+/// anti-aliasing.
 class PlainClassifier {
  public:
-  /// Both must outlive the classifier.
-  PlainClassifier(const WorldModel& world, const GridGeometry& geometry);
+  /// World and geometry must outlive the classifier.
+  PlainClassifier(const WorldModel& world, const GridGeometry& geometry,
+                  const VolumeOptions& options = {});
 
   PlainState classify(const Eigen::Vector3i& voxel) const;
+
+  /// Whether a depth image sees through a voxel, whatever is known to be there.
+  bool sees_through(const Observer& observer, const Eigen::Vector3i& voxel, bool& close_call) const;
 
   /// Whether a camera sees a point past all known objects; what it measured is left aside.
   Verdict hidden(const PinholeCamera& camera, const Eigen::Vector3d& point) const;
@@ -32,11 +38,14 @@ class PlainClassifier {
   bool inside_known(const Eigen::Vector3d& point, bool& close_call) const;
   enum class Says { nothing, free, surface };
   Says ask(const Observer& observer, const Eigen::Vector3i& voxel, bool& close_call) const;
+  Says compare_with_depth(const Observer& observer, const Eigen::Vector3i& voxel,
+                          bool& close_call) const;
   bool holds_measured_point(const Observer& observer, const Eigen::Vector3i& voxel,
                             bool& close_call) const;
 
   const WorldModel& world_;
   const GridGeometry& geometry_;
+  VolumeOptions options_;
   ReferenceScene known_;
   std::vector<TriangleMesh> solids_;
 };

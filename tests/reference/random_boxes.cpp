@@ -1,0 +1,73 @@
+#include "reference/random_boxes.hpp"
+
+#include <string>
+
+namespace vantage::test {
+namespace {
+
+const Box kWorkArea({-0.12, -0.12, 0}, {0.12, 0.12, 0.2});
+
+TurnedBox random_box(Random& random) {
+  TurnedBox box;
+  for (int axis = 0; axis < 3; ++axis) box.half[axis] = random.uniform(0.01, 0.045);
+  const Pose turned = random.pose(0.09);
+  box.T_world_box = Pose::from_translation({0, 0, 0.1}) * turned;
+  return box;
+}
+
+Intrinsics random_image(Random& random, double least_focal, double most_focal) {
+  const int width = 160 + int(random.below(481)), height = 120 + int(random.below(361));
+  const double focal = width * random.uniform(least_focal, most_focal);
+  return {width,
+          height,
+          focal,
+          focal * random.uniform(0.9, 1.1),
+          width * random.uniform(0.4, 0.6),
+          height * random.uniform(0.4, 0.6)};
+}
+
+PinholeCamera random_camera(Random& random) {
+  const Eigen::Vector3d centre(0, 0, 0.1), target = centre + random.in_cube(0.05);
+  Eigen::Vector3d direction = random.direction();
+  direction.z() = std::abs(direction.z());
+  const std::uint32_t kind = random.below(4);
+  if (kind == 0) {  // in the midst
+    const Eigen::Vector3d eye = centre + random.in_cube(0.09);
+    return {random_image(random, 0.4, 0.8), Pose::looking_at(eye, target), {0.01, 0.5}};
+  }
+  const DepthRange range{0.1, random.uniform(0.5, 1.2)};  // may end within the work area
+  const Eigen::Vector3d eye = centre + random.uniform(0.3, 0.7) * direction;
+  if (kind == 1) return {random_image(random, 2, 5), Pose::looking_at(eye, target), range};
+  return {random_image(random, 0.8, 1.5), Pose::looking_at(eye, target), range};
+}
+
+}  // namespace
+
+KnownObject known_box(const std::string& name, const TurnedBox& box) {
+  return {name,
+          std::make_shared<const TriangleMesh>(TriangleMesh::from_box(Box(-box.half, box.half))),
+          box.T_world_box};
+}
+
+WorldModel BoxWorld::model() const {
+  WorldModel world;
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    world.objects.push_back(known_box("box " + std::to_string(i), boxes[i]));
+  }
+  for (std::size_t i = 0; i < cameras.size(); ++i) {
+    world.cameras.push_back({"camera " + std::to_string(i), cameras[i], nullptr});
+  }
+  return world;
+}
+
+BoxWorld random_boxes(std::uint32_t seed) {
+  Random random(seed);
+  constexpr double kVoxelSizes[] = {0.02, 0.015, 0.01, 0.0075};
+  BoxWorld world{{}, {}, GridGeometry::covering(kWorkArea, kVoxelSizes[random.below(4)])};
+  const std::uint32_t boxes = 1 + random.below(8), cameras = 1 + random.below(6);
+  for (std::uint32_t i = 0; i < boxes; ++i) world.boxes.push_back(random_box(random));
+  for (std::uint32_t i = 0; i < cameras; ++i) world.cameras.push_back(random_camera(random));
+  return world;
+}
+
+}  // namespace vantage::test

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "reference/box_oracle.hpp"
+#include "reference/random_scene.hpp"
+#include "vantage/raycore/world_model.hpp"
+
+namespace vantage::test {
+
+/// A world of boxes in the form that the oracles take.
+struct BoxWorld {
+  std::vector<TurnedBox> boxes;
+  std::vector<PinholeCamera> cameras;
+  GridGeometry geometry;
+
+  /// The same for `classify`: objects are named "box 0", "box 1" …
+  WorldModel model() const;
+};
+
+KnownObject known_box(const std::string& name, const TurnedBox& box);
+
+/// One to eight turned boxes of 2 to 9 cm, which may overlap, in a work area of 24 × 24 × 20 cm;
+/// one to six cameras: around it, with images that cover a part of it, or in its midst. Voxels of
+/// 7.5, 10, 15 or 20 mm.
+BoxWorld random_boxes(std::uint32_t seed);
+
+}  // namespace vantage::test

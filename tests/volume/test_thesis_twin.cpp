@@ -1,0 +1,111 @@
+#include <doctest/doctest.h>
+
+#include "reference/random_boxes.hpp"
+#include "reference/thesis_volume.hpp"
+#include "vantage/volume/classify.hpp"
+
+namespace vantage {
+namespace {
+
+/// Voxels compared so far, over all scenes.
+struct Tally {
+  std::size_t scenes = 0, compared = 0, close_calls = 0, unseen = 0;
+  std::array<std::size_t, 4> states{};
+};
+
+/// Both volumes must agree on every voxel that is not too close to call.
+void compare(const StateGrid& grid, const test::ThesisVolume& thesis, Tally& tally) {
+  test::for_each_voxel(thesis.geometry, [&](const Eigen::Vector3i& voxel) {
+    const std::size_t i = thesis.index(voxel);
+    if (thesis.close_call[i]) {
+      ++tally.close_calls;
+      return;
+    }
+    ++tally.compared;
+    ++tally.states[std::size_t(thesis.labels[i])];
+    tally.unseen += std::size_t(thesis.unseen[i]);
+    CAPTURE(voxel.transpose());
+    REQUIRE(grid.at(voxel) == thesis.labels[i]);
+    REQUIRE(grid.unseen(voxel) == bool(thesis.unseen[i]));
+  });
+  ++tally.scenes;
+}
+
+Tally compare_scenes(std::size_t scenes, bool anti_alias) {
+  Tally tally;
+  const VolumeOptions options{.occluders = OccluderMode::voxels, .anti_alias = anti_alias};
+  for (std::uint32_t seed = 0; tally.scenes < scenes; ++seed) {
+    REQUIRE(seed < 2 * scenes);
+    CAPTURE(seed);
+    const test::BoxWorld world = test::random_boxes(seed);
+    bool close_call = false;  // one voxel that might be solid changes the shadow of others
+    const std::vector<char> solid = test::solid_voxels(world.boxes, world.geometry, close_call);
+    if (close_call) continue;
+    const auto grid = classify(world.model(), world.geometry, options);
+    compare(*grid, test::thesis_volume(world.geometry, solid, world.cameras, anti_alias), tally);
+  }
+  return tally;
+}
+
+void check(const Tally& tally) {
+  MESSAGE(tally.compared << " voxels compared, " << tally.close_calls << " too close to call");
+  CHECK(tally.close_calls * 100 < tally.compared);
+  CHECK(tally.unseen > 1000);
+  for (const VoxelState state : {VoxelState::free, VoxelState::occupied, VoxelState::shadow}) {
+    CHECK(tally.states[std::size_t(state)] > 1000);
+  }
+}
+
+}  // namespace
+
+TEST_CASE("voxels mode equals the thesis' algorithm voxel for voxel") {
+  check(compare_scenes(32, false));
+}
+
+TEST_CASE("voxels mode with anti-aliasing equals the thesis' algorithm voxel for voxel") {
+  check(compare_scenes(32, true));
+}
+
+TEST_CASE("what hides in voxels mode is anti-aliased unless it is switched off") {
+  const test::BoxWorld world = test::random_boxes(1);
+  const auto volume = [&](const VolumeOptions& options) {
+    return classify(world.model(), world.geometry, options)->count(VoxelState::shadow);
+  };
+  const VolumeOptions voxels{.occluders = OccluderMode::voxels};
+  CHECK(volume(voxels) == volume({.occluders = OccluderMode::voxels, .anti_alias = true}));
+  CHECK(volume(voxels) < volume({.occluders = OccluderMode::voxels, .anti_alias = false}));
+  CHECK(volume({}) == volume({.anti_alias = false}));
+  CHECK(volume({}) > volume({.anti_alias = true}));
+}
+
+TEST_CASE("anti-aliasing does in both modes what the thesis prints, and says how much it removes") {
+  for (const OccluderMode mode : {OccluderMode::mesh, OccluderMode::voxels}) {
+    for (std::uint32_t seed = 0; seed < 8; ++seed) {
+      CAPTURE(seed);
+      const test::BoxWorld world = test::random_boxes(seed);
+      const WorldModel model = world.model();
+      const auto plain = classify(model, world.geometry, {.occluders = mode, .anti_alias = false});
+      const auto smooth = classify(model, world.geometry, {.occluders = mode, .anti_alias = true});
+
+      test::ThesisVolume expected{world.geometry, {}, {}, {}};
+      test::for_each_voxel(world.geometry, [&](const Eigen::Vector3i& voxel) {
+        expected.labels.push_back(plain->at(voxel));
+      });
+      expected.close_call.resize(expected.labels.size());
+      test::thesis_anti_alias(expected);
+      test::for_each_voxel(world.geometry, [&](const Eigen::Vector3i& voxel) {
+        CAPTURE(voxel.transpose());
+        const VoxelState state = expected.labels[expected.index(voxel)];
+        REQUIRE(smooth->at(voxel) == state);
+        REQUIRE(smooth->unseen(voxel) == (plain->unseen(voxel) && state == VoxelState::shadow));
+      });
+      const std::uint64_t removed =
+          plain->count(VoxelState::shadow) - expected.count(VoxelState::shadow);
+      CHECK(plain->report().aliased_shadow == removed);
+      CHECK(smooth->report().aliased_shadow == removed);
+      CHECK(smooth->count(VoxelState::shadow) == expected.count(VoxelState::shadow));
+    }
+  }
+}
+
+}  // namespace vantage
