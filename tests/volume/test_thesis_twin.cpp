@@ -3,6 +3,7 @@
 #include "reference/random_boxes.hpp"
 #include "reference/thesis_volume.hpp"
 #include "vantage/volume/classify.hpp"
+#include "volume/volume_modes.hpp"
 
 namespace vantage {
 namespace {
@@ -33,7 +34,7 @@ void compare(const StateGrid& grid, const test::ThesisVolume& thesis, Tally& tal
 
 Tally compare_scenes(std::size_t scenes, bool anti_alias) {
   Tally tally;
-  const VolumeOptions options{.occluders = OccluderMode::voxels, .anti_alias = anti_alias};
+  const VolumeOptions options = test::volume_mode(OccluderMode::voxels, anti_alias);
   for (std::uint32_t seed = 0; tally.scenes < scenes; ++seed) {
     REQUIRE(seed < 2 * scenes);
     CAPTURE(seed);
@@ -66,16 +67,16 @@ TEST_CASE("voxels mode with anti-aliasing equals the thesis' algorithm voxel for
   check(compare_scenes(32, true));
 }
 
-TEST_CASE("what hides in voxels mode is anti-aliased unless it is switched off") {
+TEST_CASE("anti-aliasing is on by default where voxels hide, and off where meshes do") {
   const test::BoxWorld world = test::random_boxes(1);
-  const auto volume = [&](const VolumeOptions& options) {
+  const auto shadow = [&](OccluderMode mode, std::optional<bool> anti_alias) {
+    const VolumeOptions options = test::volume_mode(mode, anti_alias);
     return classify(world.model(), world.geometry, options)->count(VoxelState::shadow);
   };
-  const VolumeOptions voxels{.occluders = OccluderMode::voxels};
-  CHECK(volume(voxels) == volume({.occluders = OccluderMode::voxels, .anti_alias = true}));
-  CHECK(volume(voxels) < volume({.occluders = OccluderMode::voxels, .anti_alias = false}));
-  CHECK(volume({}) == volume({.anti_alias = false}));
-  CHECK(volume({}) > volume({.anti_alias = true}));
+  CHECK(shadow(OccluderMode::voxels, {}) == shadow(OccluderMode::voxels, true));
+  CHECK(shadow(OccluderMode::voxels, {}) < shadow(OccluderMode::voxels, false));
+  CHECK(shadow(OccluderMode::mesh, {}) == shadow(OccluderMode::mesh, false));
+  CHECK(shadow(OccluderMode::mesh, {}) > shadow(OccluderMode::mesh, true));
 }
 
 TEST_CASE("anti-aliasing does in both modes what the thesis prints, and says how much it removes") {
@@ -84,8 +85,8 @@ TEST_CASE("anti-aliasing does in both modes what the thesis prints, and says how
       CAPTURE(seed);
       const test::BoxWorld world = test::random_boxes(seed);
       const WorldModel model = world.model();
-      const auto plain = classify(model, world.geometry, {.occluders = mode, .anti_alias = false});
-      const auto smooth = classify(model, world.geometry, {.occluders = mode, .anti_alias = true});
+      const auto plain = classify(model, world.geometry, test::volume_mode(mode, false));
+      const auto smooth = classify(model, world.geometry, test::volume_mode(mode, true));
 
       test::ThesisVolume expected{world.geometry, {}, {}, {}};
       test::for_each_voxel(world.geometry, [&](const Eigen::Vector3i& voxel) {

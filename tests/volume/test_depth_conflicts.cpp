@@ -1,0 +1,175 @@
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "reference/noisy_depth.hpp"
+#include "reference/plain_classify.hpp"
+#include "reference/random_boxes.hpp"
+#include "reference/thesis_volume.hpp"
+#include "vantage/raycore/scene_builder.hpp"
+#include "vantage/volume/classify.hpp"
+#include "volume/volume_modes.hpp"
+
+namespace vantage {
+namespace {
+
+const PinholeCamera kFront({160, 120, 150, 150, 79.5, 59.5},
+                           Pose::looking_at({0, -0.5, 0.3}, {0, 0, 0.08}), {0.1, 2});
+
+GridGeometry small_grid() {
+  return GridGeometry::covering(Box({-0.12, -0.12, 0}, {0.12, 0.12, 0.2}), 0.01);
+}
+
+/// Its faces lie on borders of voxels, so that no centre is near its silhouette.
+test::TurnedBox aligned_box(const Eigen::Vector3d& centre) {
+  return {{0.03, 0.02, 0.04}, Pose::from_translation(centre)};
+}
+
+/// What a camera measures of these boxes on a floor, before a wall.
+std::shared_ptr<const DepthImage> measured(const std::vector<test::TurnedBox>& boxes,
+                                           test::Random* noise = nullptr) {
+  SceneBuilder truth;
+  for (const test::TurnedBox& box : boxes) {
+    truth.add_box(Box(-box.half, box.half), box.T_world_box);
+  }
+  truth.add_box(Box({-2, -2, -0.1}, {2, 2, 0}));
+  truth.add_box(Box({-2, 0.6, -0.1}, {2, 0.7, 2}));
+  const auto scene = truth.build();
+  if (noise != nullptr) return test::noisy_depth(*scene, kFront, *noise);
+  return std::make_shared<const DepthImage>(scene->render_depth(kFront));
+}
+
+}  // namespace
+
+TEST_CASE("a wrong pose shows: as many voxels in conflict as depth sees through, by name") {
+  std::uint64_t conflicts = 0;
+  for (std::uint32_t seed = 0; seed < 8; ++seed) {
+    CAPTURE(seed);
+    test::Random random(seed);
+    const test::TurnedBox right = aligned_box({-0.06, 0, 0.06});
+    const Eigen::Vector3d truth(random.uniform(0.02, 0.08), random.uniform(-0.05, 0.05), 0.06);
+    const test::TurnedBox believed{{0.03, 0.02, 0.04},
+                                   Pose::from_translation({0.06, -0.02, 0.1}) * random.pose(0.02)};
+    WorldModel world;
+    world.objects = {test::known_box("right", right), test::known_box("wrong", believed)};
+    world.cameras.push_back({"front", kFront, measured({right, aligned_box(truth)})});
+    const GridGeometry geometry = small_grid();
+    const auto grid = classify(world, geometry);
+
+    const test::PlainClassifier plain(world, geometry);
+    std::uint64_t of_voxels = 0, seen_through = 0, close_calls = 0;
+    test::for_each_voxel(geometry, [&](const Eigen::Vector3i& voxel) {
+      if (!believed.contains(geometry.centre(voxel))) return;
+      ++of_voxels;
+      CHECK(grid->at(voxel) == VoxelState::occupied);
+      bool close_call = false;
+      const bool through = plain.sees_through(world.cameras[0], voxel, close_call);
+      ++(close_call ? close_calls : through ? seen_through : conflicts);
+    });
+    REQUIRE(seen_through > 20);
+    REQUIRE(grid->report().conflicts.size() == 1);
+    const ObjectConflict& conflict = grid->report().conflicts[0];
+    CHECK(conflict.object == "wrong");
+    CHECK(conflict.of_voxels == of_voxels);
+    CHECK(conflict.voxels >= seen_through);
+    CHECK(conflict.voxels <= seen_through + close_calls);
+    CHECK(close_calls * 5 < seen_through);
+  }
+}
+
+TEST_CASE("a correct pose is in no conflict, with clean depth and with noisy depth") {
+  const test::TurnedBox box = aligned_box({0.02, 0, 0.06});
+  test::Random random(1);
+  for (test::Random* noise : {static_cast<test::Random*>(nullptr), &random}) {
+    WorldModel world;
+    world.static_structures = {test::known_box("box", box)};
+    world.cameras.push_back({"front", kFront, measured({box}, noise)});
+    const auto grid = classify(world, small_grid());
+    CHECK(grid->report().conflicts.empty());
+    CHECK(grid->report().warnings.empty());
+  }
+  // The measuring, not the modelling, is at work here: without the box all of it is seen through.
+  WorldModel world;
+  world.static_structures = {test::known_box("box", box)};
+  world.cameras.push_back({"front", kFront, measured({})});
+  const auto grid = classify(world, small_grid());
+  REQUIRE(grid->report().conflicts.size() == 1);
+  CHECK(grid->report().conflicts[0].voxels == grid->report().conflicts[0].of_voxels);
+  CHECK(grid->report().conflicts[0].of_voxels == 6 * 4 * 8);
+}
+
+TEST_CASE("conflicts are listed in the order of the world model, objects first") {
+  WorldModel world;
+  world.static_structures = {test::known_box("z post", aligned_box({0.07, 0, 0.06}))};
+  world.objects = {test::known_box("b", aligned_box({0, 0, 0.06})),
+                   test::known_box("a", aligned_box({-0.07, 0, 0.06}))};
+  world.cameras.push_back({"front", kFront, measured({})});
+  const auto grid = classify(world, small_grid());
+  std::vector<std::string> names;
+  for (const ObjectConflict& conflict : grid->report().conflicts) names.push_back(conflict.object);
+  CHECK(names == std::vector<std::string>{"b", "a", "z post"});
+}
+
+TEST_CASE("an open mesh is a surface: a warning names it, its surface fills voxels and hides") {
+  // A tray without its upper face; its faces lie in the midst of voxels.
+  const TriangleMesh closed =
+      TriangleMesh::from_box(Box({-0.045, -0.045, 0.045}, {0.045, 0.045, 0.145}));
+  std::vector<Triangle> faces;
+  for (std::size_t t = 0; t < closed.triangles().size(); ++t) {
+    const auto z = [&](int corner) { return closed.corner(t, corner).z(); };
+    if (z(0) + z(1) + z(2) < 3 * 0.144f) faces.push_back(closed.triangles()[t]);
+  }
+  REQUIRE(faces.size() == 10);
+  WorldModel world;
+  world.objects.push_back(
+      {"tray", std::make_shared<const TriangleMesh>(closed.vertices(), faces), {}});
+  world.cameras.push_back({"front", kFront, nullptr});
+  for (const OccluderMode mode : {OccluderMode::mesh, OccluderMode::voxels}) {
+    const auto grid = classify(world, small_grid(), test::volume_mode(mode, false));
+    REQUIRE(grid->report().warnings.size() == 1);
+    CHECK(grid->report().warnings[0].find("tray") != std::string::npos);
+    const auto at = [&](double x, double y, double z) {
+      return grid->at(grid->geometry().voxel_at({x, y, z}).value());
+    };
+    for (double s = -0.04; s < 0.045; s += 0.005) {
+      CHECK(at(s, -0.045, 0.1 + s) == VoxelState::occupied);
+      CHECK(at(s, 0.045, 0.1 + s) == VoxelState::occupied);
+      CHECK(at(0.045, s, 0.1 + s) == VoxelState::occupied);
+      CHECK(at(-0.045, s, 0.1 + s) == VoxelState::occupied);
+      CHECK(at(s, -s, 0.045) == VoxelState::occupied);
+    }
+    CHECK(at(0, 0, 0.08) == VoxelState::shadow);  // not inside: there is no inside
+    CHECK(at(0, 0.09, 0.06) == VoxelState::shadow);
+    CHECK(at(0.1, 0, 0.1) == VoxelState::free);
+    const std::uint64_t walls = grid->count(VoxelState::occupied);
+    CHECK(walls == 10 * 10 + 4 * 9 * 10);  // the floor of the tray and a ring of 36 on each level
+  }
+}
+
+TEST_CASE("the surface band is max(voxel, sigmas times noise) thick and grows with distance") {
+  const GridGeometry geometry =
+      GridGeometry::covering(Box({-0.01, 0.2, -0.01}, {0.01, 2.6, 0.01}), 0.0025);
+  const PinholeCamera camera({64, 48, 60, 60, 31.5, 23.5}, Pose::looking_at({0, 0, 0}, {0, 1, 0}),
+                             {0.1, 3});
+  VolumeOptions coarse, noisy;
+  coarse.band_sigmas = 0;
+  noisy.band_sigmas = 2, noisy.noise.subpixel_px = 0.3;
+  for (const VolumeOptions& options : {VolumeOptions(), coarse, noisy}) {
+    for (const float metres : {0.4f, 0.8f, 1.2f, 1.6f, 2.4f}) {
+      CAPTURE(metres);
+      WorldModel world;
+      world.cameras.push_back(
+          {"front", camera,
+           std::make_shared<DepthImage>(64, 48, std::vector<float>(64 * 48, metres))});
+      const auto grid = classify(world, geometry, options);
+      int thickness = 0;
+      for (int j = 0; j < geometry.size().y(); ++j) thickness += grid->measured({3, j, 3});
+      const double band =
+          std::max(0.0025, options.band_sigmas * options.noise.sigma_m(double(metres)));
+      CHECK(std::abs(thickness * 0.0025 - band) <= 0.0026);
+      CHECK(thickness > 0);
+    }
+  }
+}
+
+}  // namespace vantage
