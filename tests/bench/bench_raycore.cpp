@@ -6,47 +6,19 @@
 #include <benchmark/benchmark.h>
 #include <tbb/task_arena.h>
 
-#include <time.h>
-
 #include <algorithm>
-#include <chrono>
 #include <functional>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "bare_embree.hpp"
+#include "timing.hpp"
 #include "vantage/raycore/scene_builder.hpp"
 #include "workload.hpp"
 
 namespace vantage::bench {
 namespace {
-
-using Work = std::function<void()>;
-
-/// Processor time of this thread: what other programs do on the machine hardly shows in it.
-double thread_seconds(const Work& work) {
-  const auto now = [] {
-    timespec t{};
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-    return double(t.tv_sec) + 1e-9 * double(t.tv_nsec);
-  };
-  const double start = now();
-  work();
-  return now() - start;
-}
-
-double wall_seconds(const Work& work) {
-  const auto start = std::chrono::steady_clock::now();
-  work();
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 /// Measures `ours` against `other`, taking turns in who goes first.
 void compare(benchmark::State& state, std::size_t rays, const Work& ours, const Work& other,

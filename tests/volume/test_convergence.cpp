@@ -93,7 +93,7 @@ struct Orders {
   double shadow, occupied, finest_shadow_error;
 };
 
-Orders measure(const VolumeOptions& options, const char* name) {
+Orders measure(const VolumeOptions& options, const std::string& name) {
   const std::vector<double> sizes = {0.02, 0.01, 0.005, 0.0025};
   std::vector<double> shadow, occupied;
   for (const double size : sizes) {
