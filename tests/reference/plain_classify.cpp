@@ -93,9 +93,9 @@ bool PlainClassifier::holds_measured_point(const Observer& observer, const Eigen
 PlainClassifier::Says PlainClassifier::compare_with_depth(const Observer& observer,
                                                           const Eigen::Vector3i& voxel,
                                                           bool& close_call) const {
-  if (holds_measured_point(observer, voxel, close_call)) return Says::surface;
   const Eigen::Vector3d centre = geometry_.centre(voxel);
   if (!plain_in_view(observer.camera, centre, close_call)) return Says::nothing;
+  if (holds_measured_point(observer, voxel, close_call)) return Says::surface;
   const ImagePoint p = *observer.camera.project(centre);
   close_call |=
       near(p.u + 0.5, std::round(p.u + 0.5), 1e-2) || near(p.v + 0.5, std::round(p.v + 0.5), 1e-2);
