@@ -60,10 +60,11 @@ WorldModel BoxWorld::model() const {
   return world;
 }
 
-BoxWorld random_boxes(std::uint32_t seed) {
+BoxWorld random_boxes(std::uint32_t seed, std::optional<double> voxel_size_m) {
   Random random(seed);
   constexpr double kVoxelSizes[] = {0.02, 0.015, 0.01, 0.0075};
-  BoxWorld world{{}, {}, GridGeometry::covering(kWorkArea, kVoxelSizes[random.below(4)])};
+  const double size_m = kVoxelSizes[random.below(4)];
+  BoxWorld world{{}, {}, GridGeometry::covering(kWorkArea, voxel_size_m.value_or(size_m))};
   const std::uint32_t boxes = 1 + random.below(8), cameras = 1 + random.below(6);
   for (std::uint32_t i = 0; i < boxes; ++i) world.boxes.push_back(random_box(random));
   for (std::uint32_t i = 0; i < cameras; ++i) world.cameras.push_back(random_camera(random));

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "reference/box_oracle.hpp"
@@ -23,7 +24,7 @@ KnownObject known_box(const std::string& name, const TurnedBox& box);
 
 /// One to eight turned boxes of 2 to 9 cm, which may overlap, in a work area of 24 × 24 × 20 cm;
 /// one to six cameras: around it, with images that cover a part of it, or in its midst. Voxels of
-/// 7.5, 10, 15 or 20 mm.
-BoxWorld random_boxes(std::uint32_t seed);
+/// 7.5, 10, 15 or 20 mm unless `voxel_size_m` says otherwise.
+BoxWorld random_boxes(std::uint32_t seed, std::optional<double> voxel_size_m = {});
 
 }  // namespace vantage::test

@@ -32,13 +32,13 @@ void compare(const StateGrid& grid, const test::ThesisVolume& thesis, Tally& tal
   ++tally.scenes;
 }
 
-Tally compare_scenes(std::size_t scenes, bool anti_alias) {
+Tally compare_scenes(std::size_t scenes, bool anti_alias, std::optional<double> voxel_size_m = {}) {
   Tally tally;
   const VolumeOptions options = test::volume_mode(OccluderMode::voxels, anti_alias);
   for (std::uint32_t seed = 0; tally.scenes < scenes; ++seed) {
-    REQUIRE(seed < 2 * scenes);
+    REQUIRE(seed < 4 * scenes);
     CAPTURE(seed);
-    const test::BoxWorld world = test::random_boxes(seed);
+    const test::BoxWorld world = test::random_boxes(seed, voxel_size_m);
     bool close_call = false;  // one voxel that might be solid changes the shadow of others
     const std::vector<char> solid = test::solid_voxels(world.boxes, world.geometry, close_call);
     if (close_call) continue;
@@ -65,6 +65,10 @@ TEST_CASE("voxels mode equals the thesis' algorithm voxel for voxel") {
 
 TEST_CASE("voxels mode with anti-aliasing equals the thesis' algorithm voxel for voxel") {
   check(compare_scenes(32, true));
+}
+
+TEST_CASE("voxels mode equals the thesis' algorithm where voxels are fine") {
+  check(compare_scenes(4, false, 0.005));
 }
 
 TEST_CASE("anti-aliasing is on by default where voxels hide, and off where meshes do") {
