@@ -173,12 +173,13 @@ TEST_CASE("classify stops when it is told to, after it has checked its input") {
   WorldModel world = test::random_workcell(1);
   const StopToken stop;
   stop.cancel();
-  CHECK(classify(world, small_grid(), stop) == nullptr);
+  CHECK(classify(world, small_grid(), {}, stop) == nullptr);
   world.objects.push_back({"ghost", nullptr, {}});
-  test::expect_bad_input("object ghost", "no mesh", [&] { classify(world, small_grid(), stop); });
+  test::expect_bad_input("object ghost", "no mesh",
+                         [&] { classify(world, small_grid(), {}, stop); });
   world.objects.pop_back();
   world.cameras.push_back({"wrong", kCamera, std::make_shared<DepthImage>(3, 4)});
-  test::expect_bad_input("camera wrong", "3×4", [&] { classify(world, small_grid(), stop); });
+  test::expect_bad_input("camera wrong", "3×4", [&] { classify(world, small_grid(), {}, stop); });
 }
 
 }  // namespace vantage
