@@ -5,8 +5,8 @@
 #include <cmath>
 #include <string>
 
-#include "multiversion.hpp"
 #include "vantage/raycore/error.hpp"
+#include "vantage/raycore/multiversion.hpp"
 
 namespace vantage {
 namespace {

@@ -6,10 +6,10 @@
 
 #include "batch.hpp"
 #include "hit_packet.hpp"
-#include "multiversion.hpp"
 #include "pixel_order.hpp"
 #include "scene_impl.hpp"
 #include "vantage/raycore/error.hpp"
+#include "vantage/raycore/multiversion.hpp"
 #include "vantage/raycore/scene.hpp"
 
 namespace vantage {

@@ -3,9 +3,9 @@
 #include <algorithm>
 
 #include "batch.hpp"
-#include "multiversion.hpp"
 #include "packet.hpp"
 #include "scene_impl.hpp"
+#include "vantage/raycore/multiversion.hpp"
 #include "vantage/raycore/scene.hpp"
 
 namespace vantage {

@@ -6,8 +6,6 @@
 namespace vantage::detail {
 namespace {
 
-constexpr double kRoundingOfRays = 4e-6;
-
 /// Smallest and largest value of a linear function over a box.
 struct Span {
   double low, high;

@@ -6,6 +6,10 @@
 
 namespace vantage::detail {
 
+/// Rays and projections in float err by no more than this part of the largest coordinate on their
+/// way: some 1e-7 each for the rounding of their ends, of the triangles and of the test.
+inline constexpr double kRoundingOfRays = 4e-6;
+
 /// A closed axis-aligned box, metres.
 struct Extent {
   Eigen::Vector3d centre, half;
@@ -35,8 +39,7 @@ class BoxProjector {
 
   BoxInView project(const Extent& box, double margin_m) const;
 
-  /// How far float rounding may move a ray or a projection near a box: rays err by some 1e-7 of the
-  /// largest coordinate on their way.
+  /// How far float rounding may move a ray from a box to the camera, or the projection of a point.
   double margin_m(const Extent& box) const;
 
  private:

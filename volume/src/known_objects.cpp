@@ -41,7 +41,7 @@ KnownObjects::KnownObjects(const WorldModel& world, const GridFrame& frame,
   voxels.resize(objects.size());
   tbb::parallel_for(std::size_t(0), objects.size(), [&](std::size_t i) {
     if (stop.stop_requested()) return;
-    const TriangleMesh mesh = meshes[i].mesh->transformed(meshes[i].T_grid_mesh);
+    const PlacedTriangles mesh(meshes[i]);
     voxels[i] = object_voxels(mesh, meshes[i].topology->closure, frame.layout, frame.voxel_size_m);
     mark_surface_blocks(mesh, frame.layout, frame.voxel_size_m, surface_blocks);
   });

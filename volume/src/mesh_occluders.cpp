@@ -14,17 +14,15 @@ constexpr std::size_t kWorthAnInstance = 500;
 enum class Facing : std::int8_t { away = -1, edge_on = 0, towards = 1 };
 
 /// How each triangle looks at the camera; closer to edge on than `margin_m` is not decided.
-std::vector<Facing> facings(const TriangleMesh& mesh, const Eigen::Vector3d& camera_centre,
+std::vector<Facing> facings(const MeshTopology& topology, const Eigen::Vector3d& camera_centre,
                             double margin_m) {
-  std::vector<Facing> result(mesh.triangles().size());
+  std::vector<Facing> result(topology.planes.size());
   for (std::size_t t = 0; t < result.size(); ++t) {
-    const Eigen::Vector3d a = mesh.corner(t, 0).cast<double>();
-    const Eigen::Vector3d normal =
-        (mesh.corner(t, 1).cast<double>() - a).cross(mesh.corner(t, 2).cast<double>() - a);
-    const double height = normal.dot(camera_centre - a), unsure = margin_m * normal.norm();
-    result[t] = height > unsure    ? Facing::towards
-                : height < -unsure ? Facing::away
-                                   : Facing::edge_on;
+    const FacePlane& plane = topology.planes[t];
+    const double height = plane.normal.dot(camera_centre) - plane.offset;
+    result[t] = height > margin_m    ? Facing::towards
+                : height < -margin_m ? Facing::away
+                                     : Facing::edge_on;
   }
   return result;
 }
@@ -60,20 +58,21 @@ class MeshOccluders final : public Occluders {
  private:
   static void add_contours_of(const PlacedMesh& placed, const PinholeCamera& camera,
                               ContourMap& map) {
-    const TriangleMesh mesh = placed.mesh->transformed(placed.T_grid_mesh);
-    if (mesh.empty()) return;
-    double margin_m = 0;
-    for (const Eigen::Vector3f& p : mesh.vertices()) {
-      margin_m = std::max(margin_m, double(p.cwiseAbs().maxCoeff()));
+    const Eigen::Vector3d camera_in_mesh = placed.T_grid_mesh.inverse() * camera.centre();
+    double reach_m = camera_in_mesh.norm();
+    for (const Eigen::Vector3f& p : placed.mesh->vertices()) {
+      reach_m = std::max(reach_m, double(p.norm()));
     }
-    margin_m = 4e-6 * std::max(margin_m, camera.centre().cwiseAbs().maxCoeff());
-    const std::vector<Facing> facing = facings(mesh, camera.centre(), margin_m);
+    reach_m += placed.T_grid_mesh.translation().norm();
+    const double margin_m = kRoundingOfRays * reach_m;
+    const std::vector<Facing> facing = facings(*placed.topology, camera_in_mesh, margin_m);
+    const auto vertex = [&](std::uint32_t index) -> Eigen::Vector3d {
+      return placed.T_grid_mesh * placed.mesh->vertices()[index].cast<double>();
+    };
     for (const MeshEdge& edge : placed.topology->edges) {
       const bool inner = edge.right != kNoTriangle && facing[edge.left] == facing[edge.right] &&
                          facing[edge.left] != Facing::edge_on;
-      if (inner) continue;
-      map.add_edge(mesh.vertices()[edge.from].cast<double>(),
-                   mesh.vertices()[edge.to].cast<double>(), margin_m);
+      if (!inner) map.add_edge(vertex(edge.from), vertex(edge.to), margin_m);
     }
   }
 

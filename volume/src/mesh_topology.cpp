@@ -1,5 +1,6 @@
 #include "mesh_topology.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <numeric>
 #include <tuple>
@@ -48,9 +49,19 @@ std::vector<Side> sorted_sides(const TriangleMesh& mesh) {
   return sides;
 }
 
+FacePlane face_plane(const TriangleMesh& mesh, std::size_t triangle) {
+  const Eigen::Vector3d a = mesh.corner(triangle, 0).cast<double>();
+  const Eigen::Vector3d u = mesh.corner(triangle, 1).cast<double>() - a;
+  const Eigen::Vector3d v = mesh.corner(triangle, 2).cast<double>() - a;
+  const Eigen::Vector3d normal = u.cross(v).normalized();
+  return {normal, normal.dot(a)};
+}
+
 }  // namespace
 
 MeshTopology::MeshTopology(const TriangleMesh& mesh) {
+  planes.reserve(mesh.triangles().size());
+  for (std::size_t t = 0; t < mesh.triangles().size(); ++t) planes.push_back(face_plane(mesh, t));
   const std::vector<Side> sides = sorted_sides(mesh);
   std::size_t odd = 0, unbalanced = 0;
   for (std::size_t i = 0; i < sides.size();) {

@@ -22,12 +22,19 @@ struct MeshEdge {
 };
 inline constexpr std::uint32_t kNoTriangle = 0xFFFFFFFFu;
 
+/// A triangle's plane in the mesh's frame: a point p is before it where normal · p > offset.
+struct FacePlane {
+  Eigen::Vector3d normal;  ///< unit length
+  double offset;
+};
+
 /// How the triangles of a mesh hang together. Vertices at the very same place are one: STL files
 /// and textured meshes repeat them.
 struct MeshTopology {
   std::vector<MeshEdge> edges;
   std::size_t unmatched_edges = 0;  ///< those that keep the mesh from being closed
   Closure closure = Closure::open;
+  std::vector<FacePlane> planes;  ///< of the triangles
 
   explicit MeshTopology(const TriangleMesh& mesh);
 };

@@ -50,9 +50,9 @@ struct Bounds {
   explicit Bounds(const std::array<Eigen::Vector3d, 3>& corners)
       : low(corners[0].cwiseMin(corners[1]).cwiseMin(corners[2])),
         high(corners[0].cwiseMax(corners[1]).cwiseMax(corners[2])) {}
-  explicit Bounds(const TriangleMesh& mesh)
+  explicit Bounds(const PlacedTriangles& mesh)
       : low(Eigen::Vector3d::Constant(std::numeric_limits<double>::max())), high(-low) {
-    for (const Eigen::Vector3f& p : mesh.vertices()) {
+    for (const Eigen::Vector3f& p : mesh.vertices) {
       low = low.cwiseMin(p.cast<double>());
       high = high.cwiseMax(p.cast<double>());
     }
@@ -61,24 +61,25 @@ struct Bounds {
 
 /// The cells of a size that a closed box touches, widened by a millionth of a cell.
 CellRange cells_touched(const Bounds& bounds, double cell_size_m, const CellRange& within) {
-  const auto cell = [&](const Eigen::Vector3d& p, double widen) -> Eigen::Vector3i {
-    const Eigen::Array3d index = (p.array() / cell_size_m + widen).floor();
-    return index.max(-1.0).min(within.last.array().cast<double>() + 1).cast<int>().matrix();
-  };
-  return CellRange{cell(bounds.low, -1e-6), cell(bounds.high, 1e-6).array() + 1}.within(within);
+  CellRange cells;
+  for (int axis = 0; axis < 3; ++axis) {
+    cells.first[axis] = floor_to_int(bounds.low[axis] / cell_size_m - 1e-6);
+    cells.last[axis] = floor_to_int(bounds.high[axis] / cell_size_m + 1e-6) + 1;
+  }
+  return cells.within(within);
 }
 
-std::array<Eigen::Vector3d, 3> corners_of(const TriangleMesh& mesh, std::size_t triangle) {
+std::array<Eigen::Vector3d, 3> corners_of(const PlacedTriangles& mesh, std::size_t triangle) {
   return {mesh.corner(triangle, 0).cast<double>(), mesh.corner(triangle, 1).cast<double>(),
           mesh.corner(triangle, 2).cast<double>()};
 }
 
 /// Calls `visit` for the cells that a mesh's surface touches, more than once for some.
 template <class Visit>
-void for_each_cell_touched(const TriangleMesh& mesh, double cell_size_m, const CellRange& within,
+void for_each_cell_touched(const PlacedTriangles& mesh, double cell_size_m, const CellRange& within,
                            const Visit& visit) {
   const Eigen::Vector3d half = Eigen::Vector3d::Constant((0.5 + 1e-6) * cell_size_m);
-  for (std::size_t t = 0; t < mesh.triangles().size(); ++t) {
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     const std::array<Eigen::Vector3d, 3> corners = corners_of(mesh, t);
     const CellRange cells = cells_touched(Bounds(corners), cell_size_m, within);
     if (cells.empty()) continue;
@@ -91,7 +92,7 @@ void for_each_cell_touched(const TriangleMesh& mesh, double cell_size_m, const C
   }
 }
 
-void fill_inside(const TriangleMesh& mesh, Closure closure, const CellRange& voxels,
+void fill_inside(const PlacedTriangles& mesh, Closure closure, const CellRange& voxels,
                  double voxel_size_m, BlockBuffer& buffer) {
   std::vector<Crossing> crossings = scan_line_crossings(mesh, voxels, voxel_size_m);
   std::sort(crossings.begin(), crossings.end(), [](const Crossing& a, const Crossing& b) {
@@ -115,10 +116,10 @@ void fill_inside(const TriangleMesh& mesh, Closure closure, const CellRange& vox
 
 }  // namespace
 
-ObjectVoxels object_voxels(const TriangleMesh& mesh, Closure closure, const BlockLayout& layout,
+ObjectVoxels object_voxels(const PlacedTriangles& mesh, Closure closure, const BlockLayout& layout,
                            double voxel_size_m) {
   const CellRange voxels = cells_touched(Bounds(mesh), voxel_size_m, layout.voxels());
-  if (mesh.empty() || voxels.empty()) return {};
+  if (mesh.triangles.empty() || voxels.empty()) return {};
   BlockBuffer buffer(layout, voxels);
   if (closure == Closure::open) {
     for_each_cell_touched(mesh, voxel_size_m, voxels,
@@ -129,8 +130,8 @@ ObjectVoxels object_voxels(const TriangleMesh& mesh, Closure closure, const Bloc
   return buffer.finish();
 }
 
-void mark_surface_blocks(const TriangleMesh& mesh, const BlockLayout& layout, double voxel_size_m,
-                         std::vector<std::uint8_t>& marks) {
+void mark_surface_blocks(const PlacedTriangles& mesh, const BlockLayout& layout,
+                         double voxel_size_m, std::vector<std::uint8_t>& marks) {
   for_each_cell_touched(
       mesh, kBlockSide * voxel_size_m, layout.blocks(), [&](const Eigen::Vector3i& block) {
         std::atomic_ref(marks[layout.index(block)]).store(1, std::memory_order_relaxed);

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "block_set.hpp"
-#include "mesh_topology.hpp"
+#include "placed_mesh.hpp"
 #include "vantage/volume/grid_geometry.hpp"
 
 namespace vantage::detail {
@@ -26,13 +26,12 @@ struct ObjectVoxels {
 /// if it passed infinitesimally beside it, always on the same side: so it meets exactly one of the
 /// triangles that meet there, and no column ever leaks.
 ///
-/// @param mesh in the grid's frame: metres from `GridGeometry::origin()`.
-ObjectVoxels object_voxels(const TriangleMesh& mesh, Closure closure, const BlockLayout& layout,
+ObjectVoxels object_voxels(const PlacedTriangles& mesh, Closure closure, const BlockLayout& layout,
                            double voxel_size_m);
 
 /// Marks with 1 the blocks that a mesh's surface may pass through; never misses one. May run for
 /// several meshes at once.
-void mark_surface_blocks(const TriangleMesh& mesh, const BlockLayout& layout, double voxel_size_m,
-                         std::vector<std::uint8_t>& marks);
+void mark_surface_blocks(const PlacedTriangles& mesh, const BlockLayout& layout,
+                         double voxel_size_m, std::vector<std::uint8_t>& marks);
 
 }  // namespace vantage::detail

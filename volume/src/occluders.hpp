@@ -6,7 +6,7 @@
 
 #include "block_set.hpp"
 #include "contour_map.hpp"
-#include "mesh_topology.hpp"
+#include "placed_mesh.hpp"
 #include "vantage/raycore/camera.hpp"
 #include "vantage/raycore/points.hpp"
 #include "vantage/raycore/scene.hpp"
@@ -30,13 +30,6 @@ class Occluders {
 
   /// Adds all outline edges as a camera sees them.
   virtual void add_contours(const PinholeCamera& camera, ContourMap& map) const = 0;
-};
-
-/// A known object's mesh, and where it stands in the grid's frame.
-struct PlacedMesh {
-  std::shared_ptr<const TriangleMesh> mesh;
-  std::shared_ptr<const MeshTopology> topology;
-  Pose T_grid_mesh;
 };
 
 /// `OccluderMode::mesh`: rays meet the exact triangles.

@@ -80,10 +80,10 @@ double height_at(const std::array<Eigen::Vector3f, 3>& c, const Point2& p) {
 
 }  // namespace
 
-std::vector<Crossing> scan_line_crossings(const TriangleMesh& mesh, const CellRange& voxels,
+std::vector<Crossing> scan_line_crossings(const PlacedTriangles& mesh, const CellRange& voxels,
                                           double voxel_size_m) {
   std::vector<Crossing> crossings;
-  for (std::size_t t = 0; t < mesh.triangles().size(); ++t) {
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     const std::array<Eigen::Vector3f, 3> c = {mesh.corner(t, 0), mesh.corner(t, 1),
                                               mesh.corner(t, 2)};
     const auto [x0, x1] = std::minmax({c[0].x(), c[1].x(), c[2].x()});

@@ -1,10 +1,10 @@
 #pragma once
 
-#include <cmath>
+#include <algorithm>
 #include <vector>
 
 #include "blocks.hpp"
-#include "vantage/raycore/triangle_mesh.hpp"
+#include "placed_mesh.hpp"
 
 namespace vantage::detail {
 
@@ -17,7 +17,7 @@ struct Crossing {
 
 /// All crossings of a mesh's triangles with the columns of a range, triangle by triangle. Which
 /// triangles a line meets is exact for the mesh's coordinates; z is rounded.
-std::vector<Crossing> scan_line_crossings(const TriangleMesh& mesh, const CellRange& voxels,
+std::vector<Crossing> scan_line_crossings(const PlacedTriangles& mesh, const CellRange& voxels,
                                           double voxel_size_m);
 
 /// The coordinate of a voxel's centre as the rays see it.
@@ -25,11 +25,17 @@ inline float centre_coordinate(int index, double voxel_size_m) {
   return float(voxel_size_m * (index + 0.5));
 }
 
+/// Rounded down, saturated well inside the range of int; without the function call that it takes on
+/// processors of before SSE 4.1.
+inline int floor_to_int(double value) {
+  const double limited = std::min(std::max(value, -1e9), 1e9);
+  const int truncated = int(limited);
+  return truncated - int(limited < truncated);
+}
+
 /// The first voxel along an axis whose centre is not below a coordinate.
 inline int first_centre_above(double coordinate, double voxel_size_m) {
-  const double limit = 2e9;
-  const double index = std::ceil(coordinate / voxel_size_m - 0.5);
-  return int(std::fmin(std::fmax(index, -limit), limit));
+  return -floor_to_int(0.5 - coordinate / voxel_size_m);
 }
 
 }  // namespace vantage::detail

@@ -63,14 +63,13 @@ class SightTracer {
     if (known_.solid.test(voxels.first)) return true;  // all of it is: no surface goes through
     // One ray would do. The eight corners are one packet, and a ray that slips through between
     // triangles that meet in a vertex does not go unnoticed.
-    std::vector<Eigen::Vector3i> corners(8);
+    Eigen::Vector3i corners[8];
     Points centres(8);
-    for (int c = 0; c < 8; ++c) {
+    for (std::size_t c = 0; c < 8; ++c) {
       for (int axis = 0; axis < 3; ++axis) {
-        corners[std::size_t(c)][axis] =
-            (c >> axis & 1) != 0 ? voxels.last[axis] - 1 : voxels.first[axis];
+        corners[c][axis] = (c >> axis & 1) != 0 ? voxels.last[axis] - 1 : voxels.first[axis];
       }
-      centres.set(std::size_t(c), known_.frame.centre(corners[std::size_t(c)]));
+      centres.set(c, known_.frame.centre(corners[c]));
     }
     std::array<std::uint8_t, 8> hidden{};
     known_.occluders.hidden(corners, centres, camera_.centre(), hidden);
@@ -82,25 +81,20 @@ class SightTracer {
 
   BlockBits in_view(const Eigen::Vector3i& block, const BlockBits& inside) const {
     if (project({block, block.array() + 1}).coverage == Coverage::all) return inside;
-    const VoxelList list(known_.frame, block, inside);
-    std::vector<std::uint8_t> in_view(list.voxels.size());
-    camera_.in_view(list.centres, in_view);
-    BlockBits bits;
-    for (std::size_t i = 0; i < in_view.size(); ++i) {
-      if (in_view[i] != 0) bits.set(offset_in_block(list.voxels[i]));
-    }
-    return bits;
+    const BlockVoxels voxels(known_.frame, block, inside);
+    std::uint8_t in_view[kBlockVoxels];
+    camera_.in_view(voxels.centres(), {in_view, voxels.size()});
+    return voxels.where(in_view, 1);
   }
 
   BlockBits not_hidden(const Eigen::Vector3i& block, const BlockBits& which) const {
-    const VoxelList list(known_.frame, block, which);
-    std::vector<std::uint8_t> hidden(list.voxels.size());
-    known_.occluders.hidden(list.voxels, list.centres, camera_.centre(), hidden);
-    BlockBits bits;
-    for (std::size_t i = 0; i < hidden.size(); ++i) {
-      if (hidden[i] == 0) bits.set(offset_in_block(list.voxels[i]));
-    }
-    return bits;
+    const BlockVoxels list(known_.frame, block, which);
+    Eigen::Vector3i voxels[kBlockVoxels];
+    for (std::size_t i = 0; i < list.size(); ++i) voxels[i] = list.voxel(i);
+    std::uint8_t hidden[kBlockVoxels];
+    known_.occluders.hidden({voxels, list.size()}, list.centres(), camera_.centre(),
+                            {hidden, list.size()});
+    return list.where(hidden, 0);
   }
 
   const PinholeCamera& camera_;
