@@ -2,8 +2,9 @@
 # Installs with apt what building vantage needs and this machine lacks.
 # Nothing missing: says nothing, changes nothing, needs no network.
 #
-#   apps/setup.sh [--bench] [--dev]
+#   apps/setup.sh [--test] [--bench] [--dev]
 #
+#   --test    also what tests/ needs beyond that: an independent reader of what vantage writes
 #   --bench   also what tests/bench needs
 #   --dev     also the formatter and the linters
 set -euo pipefail
@@ -19,9 +20,10 @@ packages=(
 )
 for option in "$@"; do
   case $option in
+    --test) packages+=(python3-openvdb python3-numpy) ;;
     --bench) packages+=(libbenchmark-dev) ;;
     --dev) packages+=(clang-format clang-tidy shellcheck) ;;
-    *) echo "usage: apps/setup.sh [--bench] [--dev]" >&2; exit 2 ;;
+    *) echo "usage: apps/setup.sh [--test] [--bench] [--dev]" >&2; exit 2 ;;
   esac
 done
 

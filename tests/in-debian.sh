@@ -84,8 +84,8 @@ newcomer() {
       { echo "the demo left no picture out/demo/$picture" >&2; exit 1; }
   done
   step vantage/tests/run.sh
-  step unshare --net vantage/apps/setup.sh  # the second time it needs no network …
-  step vantage/tests/run.sh                 # … and only seconds
+  step unshare --net vantage/apps/setup.sh --test  # the second time it needs no network …
+  step vantage/tests/run.sh                        # … and only seconds
 }
 
 suite=${1:-}

@@ -8,6 +8,6 @@ set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 preset=${1:-release}
 
-apps/setup.sh
+apps/setup.sh --test
 VANTAGE_WERROR=${VANTAGE_WERROR:-OFF} apps/build.sh "$preset"
 ctest --preset "$preset"

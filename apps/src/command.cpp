@@ -9,10 +9,14 @@ void CommonOptions::add_to(CLI::App& verb) {
                                         "Folder for the results; it is made if it is missing")
                             ->take_last();  // apps/demo.sh gives one, which its user may replace
   verb.add_flag("--json", output.json, "Print plan.json on stdout instead of a summary");
-  verb.add_flag("--save-grid", output.save_grid, "Write grid.vdb: the state of every voxel")
+  verb.add_flag(
+          "--save-grid", output.save_grid,
+          "Write the state of every voxel as grid.vdb and labels.npy, and the shadow's connected "
+          "regions as regions.npy")
       ->needs(folder);
   verb.add_flag("--save-surface", output.save_surface,
-                "Write shadow.ply: the surface of the shadow that stays")
+                "Write the surface of the shadow that stays: shadow.ply, voxel by voxel, and "
+                "shadow_smooth.ply")
       ->needs(folder);
   verb.add_flag("--save-scene", output.save_scene, "Write scene.glb: voxels and cameras in 3D")
       ->needs(folder);

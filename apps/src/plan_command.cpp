@@ -56,6 +56,24 @@ void add_planning_options(CLI::App& verb, PlanArguments& arguments) {
       ->needs(verb.get_option("--output"));
 }
 
+void add_volume_options(CLI::App& verb, PlanOptions& plan) {
+  verb.add_option("--occluders", plan.occluders,
+                  "What hides from a camera: the known objects' exact meshes, or their voxels "
+                  "(default: mesh)")
+      ->check(CLI::IsMember({"mesh", "voxels"}));
+  verb.add_option("--anti-alias", plan.anti_alias,
+                  "Free shadow voxels with fewer than 5 of 6 neighbours in shadow "
+                  "(default: on with --occluders voxels)")
+      ->check(CLI::IsMember({"on", "off"}));
+  verb.add_option("--band-sigmas", plan.band_sigmas,
+                  "Thickness of a measured surface in standard deviations of the depth, at least a "
+                  "voxel (default: 4)")
+      ->check(CLI::NonNegativeNumber);
+  verb.add_option("--depth-noise-px", plan.depth_noise_px,
+                  "Noise of the depth cameras' stereo matching, pixels (default: 0.08)")
+      ->check(CLI::NonNegativeNumber);
+}
+
 ExitCode plan(const PlanArguments& arguments) {
   const auto start = StopToken::Clock::now();
   const RunOptions run = arguments.common.run(start);
@@ -75,6 +93,7 @@ void add_plan_command(CLI::App& app, Action& action) {
   arguments->common.add_to(*verb);
   add_input_options(*verb, arguments->plan);
   add_planning_options(*verb, *arguments);
+  add_volume_options(*verb, arguments->plan);
   verb->parse_complete_callback(
       [&action, arguments] { action = [=] { return plan(*arguments); }; });
 }

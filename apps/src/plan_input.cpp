@@ -4,6 +4,7 @@
 
 #include "vantage/raycore/error.hpp"
 #include "vantage/reconstruction/bop_scene.hpp"
+#include "volume_settings.hpp"
 #include "workcell.hpp"
 
 namespace vantage {
@@ -31,6 +32,15 @@ std::vector<Observer> observers_of(const BopScene& scene) {
   return observers;
 }
 
+VolumeOptions volume_of(const Workcell& workcell, const PlanOptions& options) {
+  VolumeOptions volume = workcell.volume;
+  if (!options.occluders.empty()) volume.occluders = occluder_mode_of(options.occluders);
+  if (!options.anti_alias.empty()) volume.anti_alias = options.anti_alias == "on";
+  if (options.band_sigmas) volume.band_sigmas = *options.band_sigmas;
+  if (options.depth_noise_px) volume.noise.subpixel_px = *options.depth_noise_px;
+  return volume;
+}
+
 PlanRequest request_of(const Workcell& workcell, const PlanOptions& options,
                        const Intrinsics& first_camera) {
   PlanRequest request{.work_area = workcell.work_area,
@@ -39,6 +49,7 @@ PlanRequest request_of(const Workcell& workcell, const PlanOptions& options,
   request.radii_m = options.radii_m.empty() ? workcell.candidate_radii_m : options.radii_m;
   request.candidates_per_half_sphere = options.count.value_or(workcell.candidates_per_half_sphere);
   request.reach = workcell.reach;
+  request.volume = volume_of(workcell, options);
   if (workcell.voxel_size_m) request.voxel_size_m = *workcell.voxel_size_m;
   if (options.voxel_size_m) request.voxel_size_m = *options.voxel_size_m;
   return request;

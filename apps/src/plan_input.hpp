@@ -21,6 +21,10 @@ struct PlanOptions {
   std::vector<double> radii_m;
   std::optional<int> count;
   std::optional<double> voxel_size_m;
+  std::string occluders;                 ///< mesh or voxels; empty: from the workcell
+  std::string anti_alias;                ///< on or off; empty: from the workcell
+  std::optional<double> band_sigmas;     ///< none: from the workcell
+  std::optional<double> depth_noise_px;  ///< of the stereo matching; none: from the workcell
 };
 
 /// All that planning needs.

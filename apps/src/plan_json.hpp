@@ -2,10 +2,10 @@
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
-#include <string>
 #include <vector>
 
 #include "vantage/planner/plan.hpp"
+#include "vantage/volume/shadow_regions.hpp"
 
 namespace vantage {
 
@@ -18,13 +18,12 @@ struct PlanRecord {
 };
 
 /// plan.json as assets/schema/plan.schema.json describes it.
+/// @param regions of `plan.classified`; null if there is none.
 /// @throws Error bad_input if an input file has gone in the meantime.
-nlohmann::ordered_json plan_to_json(const Plan& plan, const PlanRecord& record);
+nlohmann::ordered_json plan_to_json(const Plan& plan, const ShadowRegions* regions,
+                                    const PlanRecord& record);
 
 /// The settings that the planner used, for `PlanRecord::config`.
 nlohmann::ordered_json config_of(const PlanRequest& request);
-
-/// The plan in a few lines for a person.
-std::string summary_of(const Plan& plan);
 
 }  // namespace vantage

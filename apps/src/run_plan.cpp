@@ -5,12 +5,16 @@
 #include <tbb/task_arena.h>
 
 #include <iostream>
+#include <optional>
 
 #include "plan_pictures.hpp"
+#include "plan_summary.hpp"
 #include "progress_line.hpp"
 #include "vantage/raycore/error.hpp"
 #include "vantage/raycore/file.hpp"
 #include "vantage/raycore/mesh_io.hpp"
+#include "vantage/volume/grid_files.hpp"
+#include "vantage/volume/smooth_surface.hpp"
 
 namespace vantage {
 namespace {
@@ -23,22 +27,34 @@ void make_folder(const fs::path& folder) {
   if (error) throw bad_input(folder.string(), "cannot make this folder: " + error.message());
 }
 
-void write_extras(const Plan& plan, const WorldModel& world, const OutputOptions& output,
-                  const StopToken& stop) {
+void write_extras(const Plan& plan, const ShadowRegions& regions, const WorldModel& world,
+                  const OutputOptions& output, const StopToken& stop) {
   const auto write = [&](bool wanted, const char* name, const auto& writer) {
     if (!wanted || stop.stop_requested()) return;
     writer(output.folder / name);
     if (!stop.stop_requested()) spdlog::info("wrote {}", (output.folder / name).string());
   };
   write(output.save_grid, "grid.vdb", [&](const fs::path& p) { plan.grid->write_vdb(p); });
+  write(output.save_grid, "labels.npy",
+        [&](const fs::path& p) { write_labels_npy(p, *plan.grid); });
+  write(output.save_grid, "regions.npy", [&](const fs::path& p) { write_regions_npy(p, regions); });
   write(output.save_surface, "shadow.ply",
         [&](const fs::path& p) { write_ply(p, plan.grid->faces(VoxelState::shadow)); });
+  write(output.save_surface, "shadow_smooth.ply",
+        [&](const fs::path& p) { write_ply(p, smooth_surface(*plan.grid, VoxelState::shadow)); });
   write(output.save_scene, "scene.glb",
         [&](const fs::path& p) { write_scene_model(p, plan, world); });
   write(output.pictures, "overview.png",
         [&](const fs::path& p) { write_overview(p, plan, world, output.picture_width, stop); });
   write(output.pictures && plan.best, "view.png",
         [&](const fs::path& p) { write_suggested_view(p, plan, stop); });
+}
+
+void warn_of(const Plan& plan) {
+  if (plan.classified == nullptr) return;
+  for (const std::string& warning : plan.classified->report().warnings) {
+    spdlog::warn("{}", warning);
+  }
 }
 
 ExitCode exit_code_of(const Plan& plan) {
@@ -64,20 +80,25 @@ ExitCode run_plan(const WorldModel& world, const PlanRequest& request, PlanRecor
   tbb::task_arena arena(threads);
   if (!output.folder.empty()) make_folder(output.folder);
 
+  std::optional<ShadowRegions> regions;
   const Plan plan = arena.execute([&] {
     const ProgressLine progress("planning", run.stop);
-    return plan_next_view(world, request, run.stop);
+    Plan result = plan_next_view(world, request, run.stop);
+    if (result.classified != nullptr) regions.emplace(*result.classified);
+    return result;
   });
   record.total_s = std::chrono::duration<double>(StopToken::Clock::now() - start).count();
   record.config.update(config_of(plan.request));
-  const std::string json = plan_to_json(plan, record).dump(1) + "\n";
+  warn_of(plan);
+  const ShadowRegions* const found = regions ? &*regions : nullptr;
+  const std::string json = plan_to_json(plan, found, record).dump(1) + "\n";
   if (!output.folder.empty()) {
     write_file(output.folder / "plan.json", json);
     spdlog::info("wrote {}", (output.folder / "plan.json").string());
   }
-  std::cout << (output.json ? json : summary_of(plan)) << std::flush;
-  if (plan.grid != nullptr) {
-    arena.execute([&] { write_extras(plan, world, output, run.drawing); });
+  std::cout << (output.json ? json : summary_of(plan, found)) << std::flush;
+  if (regions) {
+    arena.execute([&] { write_extras(plan, *regions, world, output, run.drawing); });
   }
   if (run.drawing.stop_requested()) return ExitCode::cancelled;
   return exit_code_of(plan);

@@ -14,8 +14,8 @@ namespace vantage {
 struct OutputOptions {
   std::filesystem::path folder = {};  ///< empty: nothing is written but the answer on stdout
   bool json = false;                  ///< stdout gets plan.json instead of the summary
-  bool save_grid = false;             ///< grid.vdb
-  bool save_surface = false;          ///< shadow.ply: the surface of the shadow that stays
+  bool save_grid = false;             ///< grid.vdb, labels.npy, regions.npy
+  bool save_surface = false;          ///< shadow.ply, shadow_smooth.ply: of the shadow that stays
   bool save_scene = false;            ///< scene.glb: everything, for a viewer
   bool pictures = false;              ///< overview.png and view.png
   int picture_width = 1280;           ///< of overview.png, pixels

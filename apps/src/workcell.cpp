@@ -9,6 +9,7 @@
 #include "schema_check.hpp"
 #include "schemas.hpp"
 #include "vantage/raycore/mesh_io.hpp"
+#include "volume_settings.hpp"
 #include "yaml_document.hpp"
 
 namespace vantage {
@@ -145,6 +146,25 @@ void read_candidates(const Value& value, Workcell& workcell) {
   if (value.has("count")) workcell.candidates_per_half_sphere = value["count"].as<int>();
 }
 
+StereoNoise read_noise(const Value& value) {
+  StereoNoise noise;
+  if (value.has("focal_px")) noise.focal_px = value["focal_px"].as<double>();
+  if (value.has("baseline_m")) noise.baseline_m = value["baseline_m"].as<double>();
+  if (value.has("subpixel_px")) noise.subpixel_px = value["subpixel_px"].as<double>();
+  return noise;
+}
+
+VolumeOptions read_volume(const Value& value) {
+  VolumeOptions volume;
+  if (value.has("occluders")) {
+    volume.occluders = occluder_mode_of(value["occluders"].as<std::string>());
+  }
+  if (value.has("anti_alias")) volume.anti_alias = value["anti_alias"].as<bool>();
+  if (value.has("band_sigmas")) volume.band_sigmas = value["band_sigmas"].as<double>();
+  if (value.has("noise")) volume.noise = read_noise(value["noise"]);
+  return volume;
+}
+
 }  // namespace
 
 Workcell load_workcell(const fs::path& path) {
@@ -159,6 +179,7 @@ Workcell load_workcell(const fs::path& path) {
   if (root.has("candidates")) read_candidates(root["candidates"], workcell);
   if (root.has("reach")) workcell.reach = read_reach(root["reach"]);
   if (root.has("voxel_size_m")) workcell.voxel_size_m = root["voxel_size_m"].as<double>();
+  if (root.has("volume")) workcell.volume = read_volume(root["volume"]);
 
   ObjectReader objects(path.parent_path(), workcell.files);
   const auto read_all = [&](const char* key, std::vector<KnownObject>& to) {

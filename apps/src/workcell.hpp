@@ -9,6 +9,7 @@
 #include "vantage/raycore/box.hpp"
 #include "vantage/raycore/camera.hpp"
 #include "vantage/raycore/world_model.hpp"
+#include "vantage/volume/volume_options.hpp"
 
 namespace vantage {
 
@@ -24,6 +25,7 @@ struct Workcell {
   std::vector<KnownObject> static_structures = {};  ///< may lie outside the work area
   std::vector<KnownObject> known_objects = {};
   std::optional<double> voxel_size_m = {};
+  VolumeOptions volume = {};
   std::vector<std::filesystem::path> files = {};  ///< every file that was read, once
 };
 

@@ -46,7 +46,7 @@ std::optional<double> Plan::newly_observed_volume_m3(std::size_t candidate) cons
 }
 
 Plan plan_next_view(const WorldModel& world, const PlanRequest& request, const StopToken& stop) {
-  Plan plan{request, {}, {}, nullptr};
+  Plan plan{request, {}, {}, nullptr, nullptr};
   if (plan.request.radii_m.empty()) plan.request.radii_m = default_radii_m(request.work_area);
   if (request.reach) request.reach->check("reach");
   const PinholeCamera camera(request.intrinsics, Pose(), request.range, "movable camera");
@@ -56,7 +56,7 @@ Plan plan_next_view(const WorldModel& world, const PlanRequest& request, const S
   for (const ViewCandidate& view : views) plan.candidates.push_back({view, {}, {}});
 
   const auto start = std::chrono::steady_clock::now();
-  plan.grid = classify(world, geometry, {}, stop);
+  plan.grid = plan.classified = classify(world, geometry, request.volume, stop);
   plan.classify_s = seconds_since(start);
   if (plan.grid != nullptr) {
     const auto scoring = std::chrono::steady_clock::now();
@@ -64,7 +64,8 @@ Plan plan_next_view(const WorldModel& world, const PlanRequest& request, const S
     for (ScoredCandidate& candidate : plan.candidates) {
       candidate.rejected = reason_to_reject(candidate.view, request.reach, *plan.grid);
     }
-    const VoxelScorer scorer(*plan.grid, occluder_scene(world, *plan.grid));
+    const VoxelScorer scorer(*plan.grid,
+                             occluder_scene(world, *plan.grid, request.volume.occluders));
     score_candidates(scorer, camera, stop, plan);
     if (plan.best) {
       const Pose& pose = plan.candidates[*plan.best].view.T_world_cam;

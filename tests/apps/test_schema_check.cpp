@@ -117,7 +117,7 @@ TEST_CASE("one of two keys has to be there, and not both") {
                       {"exactly one of the keys"});
 }
 
-TEST_CASE("the plan's schema takes what DESIGN shows and nothing else") {
+TEST_CASE("the plan's schema takes what a plan has and nothing else") {
   const json plan = json::parse(R"({
     "vantage": "0.1.0", "method": "voxel", "partial": false,
     "camera": {"width": 640, "height": 480, "fx": 525.0, "fy": 525.0, "cx": 319.5, "cy": 239.5,
@@ -129,7 +129,13 @@ TEST_CASE("the plan's schema takes what DESIGN shows and nothing else") {
       {"id": 17, "score": 0.0, "newly_observed_volume_m3": 0.0, "feasible": true, "rejected": null},
       {"id": 18, "score": null, "newly_observed_volume_m3": null, "feasible": false,
        "rejected": "out of reach"}],
-    "volumes_m3": {"work_area": 0.0, "occupied": 0.0, "free": 0.0, "shadow": 0.0},
+    "volumes_m3": {"work_area": 0.0, "occupied": 0.0, "free": 0.0, "shadow": 0.0,
+                   "shadow_hidden": 0.0, "shadow_unseen": 0.0},
+    "anti_alias": {"applied": false, "volume_m3": 0.0},
+    "conflicts": [{"object": "cup", "volume_m3": 0.0, "object_volume_m3": 0.0}],
+    "shadow_regions": {"count": 1, "largest": [{"volume_m3": 0.0, "unseen_m3": 0.0,
+      "centroid_m": [0, 0, 0], "min_m": [0, 0, 0], "max_m": [0, 0, 0]}]},
+    "warnings": ["the mesh of cup is not closed"],
     "voxel_size_m": 0.009375, "timing_ms": {"load": 0, "classify": 0, "score": 0, "total": 0},
     "config": {"threads": 2}, "inputs": [{"path": "a.json", "sha256":
       "0123456789abcdef0123456789abcdef0123456789abcdef0123456789abcdef"}]})");
@@ -139,6 +145,9 @@ TEST_CASE("the plan's schema takes what DESIGN shows and nothing else") {
   CHECK_NOTHROW(check(plan));
   json changed = plan;
   changed["best"] = nullptr;
+  for (const char* key : {"volumes_m3", "anti_alias", "conflicts", "shadow_regions"}) {
+    changed[key] = nullptr;  // stopped early
+  }
   CHECK_NOTHROW(check(changed));
   for (const auto& [key, unused] : plan.items()) {
     changed = plan;
@@ -148,6 +157,10 @@ TEST_CASE("the plan's schema takes what DESIGN shows and nothing else") {
   changed = plan;
   changed["candidates"][1]["feasable"] = true;
   expect_refused([&] { check(changed); }, "plan.json: candidates[1].feasable", {"\"feasible\""});
+  changed = plan;
+  changed["shadow_regions"]["largest"][0]["centroid_m"] = {0, 0};
+  expect_refused([&] { check(changed); }, "plan.json: shadow_regions.largest[0].centroid_m",
+                 {"3 numbers"});
   changed = plan;
   changed["inputs"][0]["sha256"] = "0123";
   expect_refused([&] { check(changed); }, "plan.json: inputs[0].sha256", {"found \"0123\""});

@@ -56,6 +56,9 @@ TEST_CASE("the example uses every key") {
   CHECK(cell.static_structures[1].name == "post");
   CHECK(cell.known_objects.empty());
   CHECK(cell.voxel_size_m == 0.01);
+  VolumeOptions written_out;  // the example has the defaults
+  written_out.anti_alias = false;
+  CHECK(cell.volume == written_out);
 }
 
 TEST_CASE("a work area is enough for a workcell") {
@@ -70,6 +73,7 @@ TEST_CASE("a work area is enough for a workcell") {
   CHECK(cell.candidates_per_half_sphere == 20);
   CHECK(!cell.reach);
   CHECK(!cell.voxel_size_m);
+  CHECK(cell.volume == VolumeOptions{});
   CHECK(cell.files == std::vector{folder / "cell.yaml"});
 }
 
@@ -88,6 +92,22 @@ TEST_CASE("a workcell's ranges, candidates and reach are read") {
   CHECK(cell.candidates_per_half_sphere == 7);
   CHECK(cell.reach->base_m == Eigen::Vector3d(1, 2, 3));
   CHECK(cell.reach->min_m == 0);
+}
+
+TEST_CASE("a workcell's volume settings are read, and what is not there keeps its default") {
+  TemporaryFolder folder;
+  const Workcell cell = load(folder, std::string(kArea) +
+                                         "volume:\n"
+                                         "  occluders: voxels\n"
+                                         "  anti_alias: false\n"
+                                         "  band_sigmas: 2.5\n"
+                                         "  noise: {focal_px: 640, baseline_m: 0.095}\n");
+  CHECK(cell.volume == VolumeOptions{OccluderMode::voxels, false, 2.5, {640, 0.095, 0.08}});
+  CHECK(!load(folder, std::string(kArea) + "volume: {occluders: voxels}\n").volume.anti_alias);
+  expect_text_refused("volume: {occluders: boxes}\n", "volume.occluders", {"boxes", "voxels"});
+  expect_text_refused("volume: {band_sigmas: -1}\n", "volume.band_sigmas", {"-1"});
+  expect_text_refused("volume: {noise: {baseline_m: 0}}\n", "volume.noise.baseline_m", {"0"});
+  expect_text_refused("volume: {anti_alais: true}\n", "anti_alais", {"\"anti_alias\""});
 }
 
 TEST_CASE("boxes and meshes become objects at their poses") {

@@ -116,6 +116,11 @@ TEST_CASE("wrong usage is exit code 2") {
   expect_failure("plan '" + scene + "'", 2, {"--work-area"});
   expect_failure("plan '" + scene + "'" + test::kSceneArea + " --method wishful", 2, {"wishful"});
   expect_failure("plan '" + scene + "' --work-area 0 0 0 1 1", 2, {"--work-area"});
+  for (const char* option :
+       {"--occluders boxes", "--anti-alias perhaps", "--band-sigmas -1", "--depth-noise-px -0.1"}) {
+    const std::string name(option, std::string_view(option).find(' '));
+    expect_failure("plan '" + scene + "'" + test::kSceneArea + " " + option, 2, {name});
+  }
   expect_failure("frobnicate", 2, {});
 }
 

@@ -80,9 +80,20 @@ TEST_CASE("vantage plan looks behind what stands in a depth image") {
   CHECK_NOTHROW(check_schema({"plan.json", plan}, plan_schema()));
   CHECK(plan["best"]["T_world_cam"]["translation_m"][1].get<double>() > 0.3);
   CHECK(plan["inputs"].size() == 2);
-  for (const char* name : {"grid.vdb", "shadow.ply", "scene.glb"}) CHECK(fs::exists(out / name));
+  const nlohmann::json& volumes = plan["volumes_m3"];
+  CHECK(volumes["shadow_hidden"].get<double>() + volumes["shadow_unseen"].get<double>() ==
+        doctest::Approx(volumes["shadow"].get<double>()).scale(0));
+  CHECK(plan["anti_alias"]["applied"] == false);
+  // The box's shadow is by far the largest; it lies behind the box.
+  const nlohmann::json& largest = plan["shadow_regions"]["largest"][0];
+  CHECK(largest["volume_m3"] > 0.5 * volumes["shadow"].get<double>());
+  CHECK(largest["centroid_m"][1] > 0.06);
+  for (const char* name :
+       {"grid.vdb", "labels.npy", "regions.npy", "shadow.ply", "shadow_smooth.ply", "scene.glb"}) {
+    CHECK(fs::exists(out / name));
+  }
   // Nothing temporary is left behind.
-  CHECK(std::distance(fs::directory_iterator(out), fs::directory_iterator()) == 4);
+  CHECK(std::distance(fs::directory_iterator(out), fs::directory_iterator()) == 7);
 }
 
 TEST_CASE("the plan is the same at 1, 2, 3 and 8 threads") {
@@ -114,6 +125,38 @@ TEST_CASE("a workcell file adds known objects, and the command line wins over it
   CHECK(fine["volumes_m3"]["occupied"].get<double>() >= 0.16 * 0.06 * 0.13 * 0.99);
 }
 
+TEST_CASE("settings of the volume: defaults, a workcell's, and the command line's over both") {
+  const test::TemporaryFolder folder;
+  const fs::path scene = test::write_scene(folder);
+  const std::string plan = "plan '" + scene.string() + "'" + test::kSceneArea + " --json";
+  const auto settings = [](const test::CommandResult& result) {
+    CAPTURE(result.err);
+    REQUIRE(result.exit_code == 0);
+    return result.json()["config"]["volume"];
+  };
+  const nlohmann::json noise = {{"focal_px", 424.0}, {"baseline_m", 0.05}, {"subpixel_px", 0.08}};
+  CHECK(settings(run_vantage(plan)) ==
+        nlohmann::json{
+            {"occluders", "mesh"}, {"anti_alias", false}, {"band_sigmas", 4.0}, {"noise", noise}});
+  CHECK(settings(run_vantage(plan + " --occluders voxels"))["anti_alias"] == true);
+  const fs::path cell =
+      folder.write("cell.yaml",
+                   "work_area: {min_m: [-0.2, -0.1, 0.02], max_m: [0.2, 0.3, 0.22]}\n"
+                   "volume: {occluders: voxels, band_sigmas: 3, noise: {subpixel_px: 0.1}}\n");
+  const std::string with_cell = plan + " --workcell '" + cell.string() + "'";
+  const nlohmann::json from_cell = settings(run_vantage(with_cell));
+  CHECK(from_cell["occluders"] == "voxels");
+  CHECK(from_cell["band_sigmas"] == 3.0);
+  CHECK(from_cell["noise"]["subpixel_px"] == 0.1);
+  CHECK(
+      settings(run_vantage(with_cell + " --occluders mesh --anti-alias on --band-sigmas 0"
+                                       " --depth-noise-px 0.2")) ==
+      nlohmann::json{{"occluders", "mesh"},
+                     {"anti_alias", true},
+                     {"band_sigmas", 0.0},
+                     {"noise", {{"focal_px", 424.0}, {"baseline_m", 0.05}, {"subpixel_px", 0.2}}}});
+}
+
 TEST_CASE("a deadline gives what is there by then, and exit code 5") {
   const test::TemporaryFolder folder;
   const std::string plan = "plan '" + test::write_scene(folder).string() + "'" + test::kSceneArea;
@@ -121,6 +164,7 @@ TEST_CASE("a deadline gives what is there by then, and exit code 5") {
   CHECK(result.exit_code == 5);
   CHECK(result.json()["partial"] == true);
   CHECK(result.json()["best"].is_null());
+  CHECK(result.json()["shadow_regions"].is_null());
   CHECK_NOTHROW(check_schema({"plan.json", result.json()}, plan_schema()));
 }
 

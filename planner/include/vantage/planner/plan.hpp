@@ -12,6 +12,7 @@
 #include "vantage/raycore/stop_token.hpp"
 #include "vantage/raycore/world_model.hpp"
 #include "vantage/volume/state_grid.hpp"
+#include "vantage/volume/volume_options.hpp"
 
 namespace vantage {
 
@@ -24,6 +25,7 @@ struct PlanRequest {
   std::vector<double> radii_m = {};  ///< of the half-spheres; empty: `default_radii_m`
   int candidates_per_half_sphere = 20;
   std::optional<Reach> reach = {};
+  VolumeOptions volume = {};  ///< how the work area is classified, and what hides from a new view
 };
 
 /// A candidate and what came of it.
@@ -33,13 +35,14 @@ struct ScoredCandidate {
   std::optional<std::uint64_t> revealed_voxels;  ///< nothing if rejected, or not reached in time
 };
 
-/// The answer. With `stopped` other than none it is partial: the best of what was finished.
+/// The answer. With `stopped` other than none it is partial: the best of what was finished; if not
+/// even the classification was, both grids are null.
 struct Plan {
-  PlanRequest request;                      ///< with the radii that were used
-  std::vector<ScoredCandidate> candidates;  ///< by id
-  std::optional<std::size_t> best;          ///< index; nothing if no candidate was scored
-  std::shared_ptr<const StateGrid>
-      grid;  ///< with what the best view reveals; null if stopped early
+  PlanRequest request;                          ///< with the radii that were used
+  std::vector<ScoredCandidate> candidates;      ///< by id
+  std::optional<std::size_t> best;              ///< index; nothing if no candidate was scored
+  std::shared_ptr<const StateGrid> classified;  ///< as the given cameras left it
+  std::shared_ptr<const StateGrid> grid;        ///< with what the best view reveals
   StopReason stopped = StopReason::none;
   double classify_s = 0;
   double score_s = 0;

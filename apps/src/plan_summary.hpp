@@ -1,0 +1,14 @@
+#pragma once
+
+#include <string>
+
+#include "vantage/planner/plan.hpp"
+#include "vantage/volume/shadow_regions.hpp"
+
+namespace vantage {
+
+/// The plan in a few lines for a person.
+/// @param regions of `plan.classified`; null if there is none.
+std::string summary_of(const Plan& plan, const ShadowRegions* regions);
+
+}  // namespace vantage

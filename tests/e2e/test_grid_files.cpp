@@ -1,0 +1,76 @@
+#include <doctest/doctest.h>
+#include <sys/wait.h>
+
+#include <cstdlib>
+
+#include "run_command.hpp"
+
+namespace vantage {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kArguments = " --save-grid --save-surface -o '";
+
+/// Lets the Python script look at what a plan wrote.
+void check_in_python(const fs::path& plan) {
+  const test::TemporaryFolder folder;
+  const std::string log = (folder / "log").string();
+  const std::string command = VANTAGE_PYTHON " '" VANTAGE_E2E_FOLDER "/check_grid_files.py' '" +
+                              plan.string() + "' >'" + log + "' 2>&1";
+  const int status = std::system(command.c_str());
+  const int exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  const std::string output = test::read_text(log);
+  if (exit_code == 77 || exit_code == 127) {  // 127: there is no Python at all
+    MESSAGE("not checked in Python (apps/setup.sh --test installs what it needs): " << output);
+    return;
+  }
+  CAPTURE(output);
+  CHECK(exit_code == 0);
+}
+
+}  // namespace
+
+TEST_CASE("NumPy and Debian's OpenVDB read the volumes of plan.json from the files: raw depth") {
+  const test::TemporaryFolder folder;
+  const std::string out = (folder / "out").string();
+  const auto result = test::run_vantage("plan '" + test::write_scene(folder).string() + "'" +
+                                        test::kSceneArea + kArguments + out + "'");
+  CAPTURE(result.err);
+  REQUIRE(result.exit_code == 0);
+  check_in_python(out);
+}
+
+TEST_CASE("NumPy and Debian's OpenVDB read the volumes of plan.json from the files: objects") {
+  const test::TemporaryFolder folder;
+  const fs::path cell =
+      folder.write("cell.yaml",
+                   "work_area: {min_m: [-0.203, -0.1, 0.02], max_m: [0.207, 0.31, 0.2232]}\n"
+                   "voxel_size_m: 0.007\n"
+                   "volume: {occluders: voxels}\n"
+                   "known_objects:\n"
+                   "  - name: box\n"
+                   "    box: {min_m: [-0.08, 0, 0], max_m: [0.08, 0.06, 0.15]}\n");
+  const std::string out = (folder / "out").string();
+  const auto result =
+      test::run_vantage("plan '" + test::write_scene(folder).string() + "' --workcell '" +
+                        cell.string() + "'" + kArguments + out + "'");
+  CAPTURE(result.err);
+  REQUIRE(result.exit_code == 0);
+  check_in_python(out);
+}
+
+TEST_CASE("NumPy and Debian's OpenVDB read the volumes of plan.json from the files: a recording") {
+  const auto scene = test::recording("osd_learn0");
+  if (!scene) return;
+  const test::TemporaryFolder folder;
+  const auto result = test::run_vantage("plan '" + scene->string() +
+                                        "' --work-area -0.25 -0.15 0.005 0.25 0.35 0.27 "
+                                        "--voxel-size 0.005" +
+                                        kArguments + folder.path().string() + "'");
+  CAPTURE(result.err);
+  REQUIRE(result.exit_code == 0);
+  check_in_python(folder.path());
+}
+
+}  // namespace vantage
