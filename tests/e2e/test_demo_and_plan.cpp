@@ -157,6 +157,36 @@ TEST_CASE("settings of the volume: defaults, a workcell's, and the command line'
                      {"noise", {{"focal_px", 424.0}, {"baseline_m", 0.05}, {"subpixel_px", 0.2}}}});
 }
 
+TEST_CASE("a known object that the depth image sees through, and a mesh that is not closed") {
+  const test::TemporaryFolder folder;
+  const fs::path scene = test::write_scene(folder);
+  folder.write("sheet.obj", "v -0.05 0.1 0.03\nv 0.05 0.1 0.03\nv 0 0.1 0.1\nf 1 2 3\n");
+  const fs::path cell =
+      folder.write("cell.yaml",
+                   "work_area: {min_m: [-0.2, -0.1, 0.02], max_m: [0.2, 0.3, 0.22]}\n"
+                   "voxel_size_m: 0.01\n"
+                   "known_objects:\n"
+                   "  - {name: sheet, mesh: sheet.obj}\n"
+                   "  - name: ghost\n"
+                   "    box: {min_m: [-0.05, -0.09, 0.04], max_m: [0.05, -0.05, 0.1]}\n");
+  const std::string plan = "plan '" + scene.string() + "' --workcell '" + cell.string() + "'";
+  const auto result = run_vantage(plan + " --json");
+  CAPTURE(result.err);
+  REQUIRE(result.exit_code == 0);
+  CHECK(result.err.find("warning: object sheet: its mesh is not closed") != std::string::npos);
+  const nlohmann::json json = result.json();
+  CHECK_NOTHROW(check_schema({"plan.json", json}, plan_schema()));
+  REQUIRE(json["warnings"].size() == 1);
+  REQUIRE(json["conflicts"].size() == 1);  // the sheet is behind the box: nothing is known of it
+  const nlohmann::json& ghost = json["conflicts"][0];
+  CHECK(ghost["object"] == "ghost");
+  CHECK(ghost["volume_m3"] > 0.9 * 0.1 * 0.04 * 0.06);
+  CHECK(ghost["object_volume_m3"].get<double>() ==
+        doctest::Approx(0.1 * 0.04 * 0.06).scale(0).epsilon(1e-6));
+  const auto text = run_vantage(plan);
+  CHECK(text.out.find("conflict   ghost: depth images see through 0.0002") != std::string::npos);
+}
+
 TEST_CASE("a deadline gives what is there by then, and exit code 5") {
   const test::TemporaryFolder folder;
   const std::string plan = "plan '" + test::write_scene(folder).string() + "'" + test::kSceneArea;

@@ -34,10 +34,15 @@ void check_in_python(const fs::path& plan) {
 TEST_CASE("NumPy and Debian's OpenVDB read the volumes of plan.json from the files: raw depth") {
   const test::TemporaryFolder folder;
   const std::string out = (folder / "out").string();
-  const auto result = test::run_vantage("plan '" + test::write_scene(folder).string() + "'" +
-                                        test::kSceneArea + kArguments + out + "'");
+  // Wider than the camera's view: some of the shadow is unseen.
+  const auto result =
+      test::run_vantage("plan '" + test::write_scene(folder).string() +
+                        "' --work-area -0.5 -0.4 0.02 0.5 0.5 0.22 --voxel-size 0.01 --json" +
+                        kArguments + out + "'");
   CAPTURE(result.err);
   REQUIRE(result.exit_code == 0);
+  CHECK(result.json()["volumes_m3"]["shadow_unseen"] > 0.001);
+  CHECK(result.json()["volumes_m3"]["shadow_hidden"] > 0.001);
   check_in_python(out);
 }
 

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <map>
+#include <utility>
 
 #include "vantage/volume/smooth_surface.hpp"
 #include "volume/make_grid.hpp"

@@ -2,6 +2,7 @@
 #include <tbb/global_control.h>
 #include <tbb/task_arena.h>
 
+#include <array>
 #include <map>
 
 #include "support/expect_error.hpp"

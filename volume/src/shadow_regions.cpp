@@ -3,6 +3,7 @@
 #include "openvdb.hpp"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <limits>
 #include <numeric>
