@@ -71,4 +71,32 @@ BoxWorld random_boxes(std::uint32_t seed, std::optional<double> voxel_size_m) {
   return world;
 }
 
+BoxWorld random_lattice_boxes(std::uint32_t seed) {
+  constexpr double kVoxel = 1.0 / 64;
+  const Eigen::Vector3d low(-8 * kVoxel, -7 * kVoxel, 0), high(8 * kVoxel, 7 * kVoxel, 13 * kVoxel);
+  Random random(seed);
+  BoxWorld world = random_boxes(seed);
+  world.geometry = GridGeometry::covering(Box(low, high), kVoxel);
+  const auto half_voxels = [&](int from, int to) {
+    return 0.5 * kVoxel * (from + int(random.below(std::uint32_t(to - from))));
+  };
+  for (PinholeCamera& camera : world.cameras) {
+    const double x = half_voxels(-60, 60), y = half_voxels(-60, 60);
+    const Eigen::Vector3d eye(x, y, half_voxels(20, 80));
+    camera = PinholeCamera({640, 480, 200, 200, 319.3, 239.7},
+                           Pose::looking_at(eye, {0.003, 0.004, 0.1}), {0.01, 5});
+  }
+  if (seed % 2 == 0) return world;
+  for (TurnedBox& box : world.boxes) {
+    Eigen::Vector3d centre;
+    for (int axis = 0; axis < 3; ++axis) {
+      const int sides = 1 + int(random.below(5)), corner = -8 + int(random.below(16));
+      box.half[axis] = 0.5 * sides * kVoxel;
+      centre[axis] = (corner + 0.5 * sides + (axis == 2 ? 7 : 0)) * kVoxel;
+    }
+    box.T_world_box = Pose::from_translation(centre);
+  }
+  return world;
+}
+
 }  // namespace vantage::test
