@@ -71,6 +71,20 @@ BoxWorld random_boxes(std::uint32_t seed, std::optional<double> voxel_size_m) {
   return world;
 }
 
+BoxWorld random_rods(std::uint32_t seed, double voxel_size_m) {
+  Random random(seed);
+  BoxWorld world = random_boxes(seed, voxel_size_m);
+  world.boxes.clear();
+  for (int i = 0; i < 6; ++i) {
+    TurnedBox box = random_box(random);
+    box.half.x() = random.uniform(0.0005, 0.003);
+    if (i < 4) box.half.y() = random.uniform(0.0005, 0.003);
+    box.half.z() *= 2;
+    world.boxes.push_back(box);
+  }
+  return world;
+}
+
 BoxWorld random_lattice_boxes(std::uint32_t seed) {
   constexpr double kVoxel = 1.0 / 64;
   const Eigen::Vector3d low(-8 * kVoxel, -7 * kVoxel, 0), high(8 * kVoxel, 7 * kVoxel, 13 * kVoxel);

@@ -27,6 +27,10 @@ KnownObject known_box(const std::string& name, const TurnedBox& box);
 /// 7.5, 10, 15 or 20 mm unless `voxel_size_m` says otherwise.
 BoxWorld random_boxes(std::uint32_t seed, std::optional<double> voxel_size_m = {});
 
+/// The same with six rods and plates instead, 1 to 6 mm thick: what passes between the corners of a
+/// block of voxels.
+BoxWorld random_rods(std::uint32_t seed, double voxel_size_m);
+
 /// The awkward cases: cameras on corners, edges, faces and centres of voxels, so that lines of
 /// sight run along axes and through voxels' edges and corners. Every other seed has boxes that fill
 /// whole voxels. Voxels of 1/64 m: no rounding anywhere.

@@ -70,7 +70,8 @@ TEST_CASE("voxels mode with anti-aliasing equals the thesis' algorithm voxel for
 }
 
 TEST_CASE("voxels mode equals the thesis' algorithm where voxels are fine") {
-  check(compare_scenes(4, false, [](auto seed) { return test::random_boxes(seed, 0.005); }));
+  check(compare_scenes(2, false, [](auto seed) { return test::random_boxes(seed, 0.005); }));
+  check(compare_scenes(8, false, [](auto seed) { return test::random_rods(seed, 0.005); }));
 }
 
 TEST_CASE("voxels mode equals the thesis' algorithm along axes, edges and corners of voxels") {
