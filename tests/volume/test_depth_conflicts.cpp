@@ -8,7 +8,6 @@
 #include "reference/thesis_volume.hpp"
 #include "vantage/raycore/scene_builder.hpp"
 #include "vantage/volume/classify.hpp"
-#include "volume/volume_modes.hpp"
 
 namespace vantage {
 namespace {
@@ -108,42 +107,6 @@ TEST_CASE("conflicts are listed in the order of the world model, objects first")
   std::vector<std::string> names;
   for (const ObjectConflict& conflict : grid->report().conflicts) names.push_back(conflict.object);
   CHECK(names == std::vector<std::string>{"b", "a", "z post"});
-}
-
-TEST_CASE("an open mesh is a surface: a warning names it, its surface fills voxels and hides") {
-  // A tray without its upper face; its faces lie in the midst of voxels.
-  const TriangleMesh closed =
-      TriangleMesh::from_box(Box({-0.045, -0.045, 0.045}, {0.045, 0.045, 0.145}));
-  std::vector<Triangle> faces;
-  for (std::size_t t = 0; t < closed.triangles().size(); ++t) {
-    const auto z = [&](int corner) { return closed.corner(t, corner).z(); };
-    if (z(0) + z(1) + z(2) < 3 * 0.144f) faces.push_back(closed.triangles()[t]);
-  }
-  REQUIRE(faces.size() == 10);
-  WorldModel world;
-  world.objects.push_back(
-      {"tray", std::make_shared<const TriangleMesh>(closed.vertices(), faces), {}});
-  world.cameras.push_back({"front", kFront, nullptr});
-  for (const OccluderMode mode : {OccluderMode::mesh, OccluderMode::voxels}) {
-    const auto grid = classify(world, small_grid(), test::volume_mode(mode, false));
-    REQUIRE(grid->report().warnings.size() == 1);
-    CHECK(grid->report().warnings[0].find("tray") != std::string::npos);
-    const auto at = [&](double x, double y, double z) {
-      return grid->at(grid->geometry().voxel_at({x, y, z}).value());
-    };
-    for (double s = -0.04; s < 0.045; s += 0.005) {
-      CHECK(at(s, -0.045, 0.1 + s) == VoxelState::occupied);
-      CHECK(at(s, 0.045, 0.1 + s) == VoxelState::occupied);
-      CHECK(at(0.045, s, 0.1 + s) == VoxelState::occupied);
-      CHECK(at(-0.045, s, 0.1 + s) == VoxelState::occupied);
-      CHECK(at(s, -s, 0.045) == VoxelState::occupied);
-    }
-    CHECK(at(0, 0, 0.08) == VoxelState::shadow);  // not inside: there is no inside
-    CHECK(at(0, 0.09, 0.06) == VoxelState::shadow);
-    CHECK(at(0.1, 0, 0.1) == VoxelState::free);
-    const std::uint64_t walls = grid->count(VoxelState::occupied);
-    CHECK(walls == 10 * 10 + 4 * 9 * 10);  // the floor of the tray and a ring of 36 on each level
-  }
 }
 
 TEST_CASE("the surface band is max(voxel, sigmas times noise) thick and grows with distance") {
