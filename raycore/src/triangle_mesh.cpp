@@ -56,30 +56,35 @@ TriangleMesh::TriangleMesh(std::vector<Eigen::Vector3f> vertices, std::vector<Tr
 }
 
 TriangleMesh TriangleMesh::from_box(const Box& box) {
+  return from_boxes({&box, 1});
+}
+
+TriangleMesh TriangleMesh::from_boxes(std::span<const Box> boxes) {
   // Bit 0 of a vertex's index chooses x, bit 1 chooses y, bit 2 chooses z.
+  constexpr Triangle kFaces[] = {
+      {0, 2, 3}, {0, 3, 1},  // below
+      {4, 5, 7}, {4, 7, 6},  // above
+      {0, 1, 5}, {0, 5, 4},  // y min
+      {2, 6, 7}, {2, 7, 3},  // y max
+      {0, 4, 6}, {0, 6, 2},  // x min
+      {1, 3, 7}, {1, 7, 5},  // x max
+  };
   std::vector<Eigen::Vector3f> vertices;
-  for (int i = 0; i < 8; ++i) {
-    vertices.push_back(Eigen::Vector3d((i & 1) != 0 ? box.max().x() : box.min().x(),
-                                       (i & 2) != 0 ? box.max().y() : box.min().y(),
-                                       (i & 4) != 0 ? box.max().z() : box.min().z())
-                           .cast<float>());
+  std::vector<Triangle> triangles;
+  vertices.reserve(8 * boxes.size());
+  triangles.reserve(12 * boxes.size());
+  for (const Box& box : boxes) {
+    const std::uint32_t first = std::uint32_t(vertices.size());
+    for (int i = 0; i < 8; ++i) {
+      vertices.push_back(Eigen::Vector3d((i & 1) != 0 ? box.max().x() : box.min().x(),
+                                         (i & 2) != 0 ? box.max().y() : box.min().y(),
+                                         (i & 4) != 0 ? box.max().z() : box.min().z())
+                             .cast<float>());
+    }
+    for (const Triangle& f : kFaces)
+      triangles.push_back({first + f[0], first + f[1], first + f[2]});
   }
-  return {std::move(vertices),
-          {
-              {0, 2, 3},
-              {0, 3, 1},  // below
-              {4, 5, 7},
-              {4, 7, 6},  // above
-              {0, 1, 5},
-              {0, 5, 4},  // y min
-              {2, 6, 7},
-              {2, 7, 3},  // y max
-              {0, 4, 6},
-              {0, 6, 2},  // x min
-              {1, 3, 7},
-              {1, 7, 5},  // x max
-          },
-          "box"};
+  return {std::move(vertices), std::move(triangles), "box"};
 }
 
 TriangleMesh TriangleMesh::transformed(const Pose& T_target_mesh) const {

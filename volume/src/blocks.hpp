@@ -16,11 +16,28 @@ inline constexpr int kBlockSide = 8;
 inline constexpr int kBlockVoxels = kBlockSide * kBlockSide * kBlockSide;
 inline constexpr int kChunkSide = 4;
 
+/// A block's halves along each axis make eight octants; (x, y, z) of an octant are in octants from
+/// the grid's origin.
+inline constexpr int kOctantSide = kBlockSide / 2;
+inline int octant_in_block(const Eigen::Vector3i& octant) {
+  return ((octant.x() & 1) << 2) | ((octant.y() & 1) << 1) | (octant.z() & 1);
+}
+
 /// One bit for each voxel of a block, ordered as in an OpenVDB leaf: word x, bit 8 y + z.
 struct BlockBits {
   std::array<std::uint64_t, kBlockSide> words{};
 
   static BlockBits all() { return ~BlockBits{}; }
+  static BlockBits octant(int octant) {
+    const std::uint64_t row = (octant & 1) != 0 ? 0xF0 : 0x0F;
+    const std::uint64_t word = (row | row << 8 | row << 16 | row << 24)
+                               << ((octant & 2) != 0 ? 32 : 0);
+    BlockBits bits;
+    for (int x = 0; x < kOctantSide; ++x) {
+      bits.words[std::size_t(x + ((octant & 4) != 0 ? kOctantSide : 0))] = word;
+    }
+    return bits;
+  }
   bool test(int offset) const { return (words[std::size_t(offset) >> 6] >> (offset & 63)) & 1; }
   void set(int offset) { words[std::size_t(offset) >> 6] |= std::uint64_t(1) << (offset & 63); }
 
@@ -33,6 +50,18 @@ struct BlockBits {
     std::uint64_t any = 0;
     for (const std::uint64_t word : words) any |= word;
     return any == 0;
+  }
+
+  /// The lowest and the highest set bit; there must be one.
+  int first() const {
+    int x = 0;
+    while (words[std::size_t(x)] == 0) ++x;
+    return 64 * x + std::countr_zero(words[std::size_t(x)]);
+  }
+  int last() const {
+    int x = kBlockSide - 1;
+    while (words[std::size_t(x)] == 0) --x;
+    return 64 * x + 63 - std::countl_zero(words[std::size_t(x)]);
   }
 
   /// Calls `visit(offset)` for every set bit, lowest first.

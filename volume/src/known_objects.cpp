@@ -25,7 +25,7 @@ std::string open_mesh_warning(const KnownObject& object, const MeshTopology& top
 
 KnownObjects::KnownObjects(const WorldModel& world, const GridFrame& frame,
                            const Pose& T_grid_world, const StopToken& stop)
-    : solid(frame.layout), surface_blocks(frame.layout.block_count()) {
+    : solid(frame.layout), surface_octants(frame.layout.block_count()) {
   std::vector<const KnownObject*> objects;
   for_each_known(world, [&](const KnownObject& object) { objects.push_back(&object); });
   std::map<const TriangleMesh*, std::shared_ptr<const MeshTopology>> topologies;
@@ -43,7 +43,7 @@ KnownObjects::KnownObjects(const WorldModel& world, const GridFrame& frame,
     if (stop.stop_requested()) return;
     const PlacedTriangles mesh(meshes[i]);
     voxels[i] = object_voxels(mesh, meshes[i].topology->closure, frame.layout, frame.voxel_size_m);
-    mark_surface_blocks(mesh, frame.layout, frame.voxel_size_m, surface_blocks);
+    mark_surface_octants(mesh, frame.layout, frame.voxel_size_m, surface_octants);
   });
   for (const ObjectVoxels& object : voxels) {
     for (const ObjectVoxels::Block& block : object.blocks) {

@@ -15,9 +15,9 @@ namespace vantage::detail {
 /// The known objects and static structures of a world, as voxels and as surfaces.
 struct KnownObjects {
   std::vector<std::string> names;
-  std::vector<ObjectVoxels> voxels;  ///< of each object
-  BlockSet solid;                    ///< of all of them
-  std::vector<std::uint8_t> surface_blocks;
+  std::vector<ObjectVoxels> voxels;           ///< of each object
+  BlockSet solid;                             ///< of all of them
+  std::vector<std::uint8_t> surface_octants;  ///< by block, see `mark_surface_octants`
   std::vector<PlacedMesh> meshes;
   std::vector<std::string> warnings;
 

@@ -130,11 +130,13 @@ ObjectVoxels object_voxels(const PlacedTriangles& mesh, Closure closure, const B
   return buffer.finish();
 }
 
-void mark_surface_blocks(const PlacedTriangles& mesh, const BlockLayout& layout,
-                         double voxel_size_m, std::vector<std::uint8_t>& marks) {
+void mark_surface_octants(const PlacedTriangles& mesh, const BlockLayout& layout,
+                          double voxel_size_m, std::vector<std::uint8_t>& marks) {
+  const CellRange octants{2 * layout.blocks().first, 2 * layout.blocks().last};
   for_each_cell_touched(
-      mesh, kBlockSide * voxel_size_m, layout.blocks(), [&](const Eigen::Vector3i& block) {
-        std::atomic_ref(marks[layout.index(block)]).store(1, std::memory_order_relaxed);
+      mesh, kOctantSide * voxel_size_m, octants, [&](const Eigen::Vector3i& octant) {
+        std::atomic_ref(marks[layout.index(octant / 2)])
+            .fetch_or(std::uint8_t(1u << octant_in_block(octant)), std::memory_order_relaxed);
       });
 }
 

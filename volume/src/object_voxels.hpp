@@ -29,9 +29,9 @@ struct ObjectVoxels {
 ObjectVoxels object_voxels(const PlacedTriangles& mesh, Closure closure, const BlockLayout& layout,
                            double voxel_size_m);
 
-/// Marks with 1 the blocks that a mesh's surface may pass through; never misses one. May run for
-/// several meshes at once.
-void mark_surface_blocks(const PlacedTriangles& mesh, const BlockLayout& layout,
-                         double voxel_size_m, std::vector<std::uint8_t>& marks);
+/// Marks, with one bit for each octant of each block, where a mesh's surface may pass through;
+/// never misses one. May run for several meshes at once.
+void mark_surface_octants(const PlacedTriangles& mesh, const BlockLayout& layout,
+                          double voxel_size_m, std::vector<std::uint8_t>& marks);
 
 }  // namespace vantage::detail

@@ -54,7 +54,7 @@ struct ShadowVolume::Impl {
 
   void trace(detail::CameraEvidence& camera) {
     camera.sight = detail::trace_sight(
-        camera.camera, {frame, known.solid, known.surface_blocks, *occluders}, stop);
+        camera.camera, {frame, known.solid, known.surface_octants, *occluders}, stop);
   }
 
   void measure(detail::CameraEvidence& camera, const DepthImage* depth) {

@@ -87,7 +87,39 @@ class SightTracer {
     return voxels.where(in_view, 1);
   }
 
+  /// Which voxels of a block are not hidden: by octants where that is proven, the rest one by one.
   BlockBits not_hidden(const Eigen::Vector3i& block, const BlockBits& which) const {
+    BlockBits provable[8], ends;
+    for (int o = 0; o < 8; ++o) {
+      const BlockBits voxels = which & BlockBits::octant(o);
+      if (voxels.none() || !one_answer(block, o)) continue;
+      provable[o] = voxels;
+      ends.set(voxels.first()), ends.set(voxels.last());
+    }
+    BlockBits clear, rest = which;
+    const BlockBits clear_ends = ends.none() ? BlockBits{} : not_hidden_one_by_one(block, ends);
+    for (const BlockBits& voxels : provable) {
+      if (voxels.none()) continue;
+      const bool first = clear_ends.test(voxels.first());
+      if (first != clear_ends.test(voxels.last())) continue;
+      rest &= ~voxels;
+      if (first) clear |= voxels;
+    }
+    return rest.none() ? clear : clear | not_hidden_one_by_one(block, rest);
+  }
+
+  /// Whether all voxels in view of an octant are hidden, or none.
+  bool one_answer(const Eigen::Vector3i& block, int octant) const {
+    if ((known_.surface_octants[known_.frame.layout.index(block)] >> octant & 1) != 0) return false;
+    const Eigen::Vector3i half(octant >> 2, octant >> 1 & 1, octant & 1);
+    const Eigen::Vector3i first = kBlockSide * block + kOctantSide * half;
+    const CellRange voxels{first, first.array() + kOctantSide};
+    const Extent extent =
+        known_.frame.extent_of_centres(voxels.within(known_.frame.layout.voxels()));
+    return contours_.clear_before(projector_.project(extent, projector_.margin_m(extent)));
+  }
+
+  BlockBits not_hidden_one_by_one(const Eigen::Vector3i& block, const BlockBits& which) const {
     const BlockVoxels list(known_.frame, block, which);
     Eigen::Vector3i voxels[kBlockVoxels];
     for (std::size_t i = 0; i < list.size(); ++i) voxels[i] = list.voxel(i);
@@ -109,7 +141,7 @@ class SightTracer {
 bool KnownSpace::surface_in(const CellRange& blocks) const {
   bool any = false;
   blocks.for_each([&](const Eigen::Vector3i& block) {
-    any = any || surface_blocks[frame.layout.index(block)] != 0;
+    any = any || surface_octants[frame.layout.index(block)] != 0;
   });
   return any;
 }

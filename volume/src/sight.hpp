@@ -23,7 +23,7 @@ struct Sight {
 struct KnownSpace {
   const GridFrame& frame;
   const BlockSet& solid;
-  const std::vector<std::uint8_t>& surface_blocks;  ///< 1 where a known surface may pass through
+  const std::vector<std::uint8_t>& surface_octants;  ///< where a known surface may pass through
   const Occluders& occluders;
 
   bool surface_in(const CellRange& blocks) const;

@@ -5,6 +5,8 @@
 #include <limits>
 
 #include "occluders.hpp"
+#include "vantage/raycore/scene_builder.hpp"
+#include "voxel_boxes.hpp"
 
 namespace vantage::detail {
 namespace {
@@ -12,6 +14,9 @@ namespace {
 /// Voxels count as touched within this part of a voxel, so that a line through an edge or a corner
 /// meets all the voxels there, however it is rounded.
 constexpr double kTouch = 1e-9;
+
+/// Cameras up to this many times the work area's size away from its corner are traced in packets.
+constexpr double kReachOfPackets = 16;
 
 /// A line of sight that walks from voxel to voxel (Amanatides and Woo, "A fast voxel traversal
 /// algorithm for ray tracing", 1987), in index coordinates, from a voxel's centre to a camera.
@@ -21,8 +26,9 @@ class VoxelWalk {
     for (int axis = 0; axis < 3; ++axis) {
       const double d = camera[axis] - (voxel[axis] + 0.5);
       step_[axis] = d > 0 ? 1 : -1;
-      per_voxel_[axis] = d != 0 ? 1 / std::abs(d) : std::numeric_limits<double>::infinity();
-      next_[axis] = 0.5 * per_voxel_[axis];
+      // A line within a plane of centres never leaves it.
+      per_voxel_[axis] = d != 0 ? 1 / std::abs(d) : 0;
+      next_[axis] = d != 0 ? 0.5 * per_voxel_[axis] : std::numeric_limits<double>::infinity();
     }
   }
 
@@ -95,7 +101,9 @@ class VoxelWalk {
 class VoxelOccluders final : public Occluders {
  public:
   VoxelOccluders(const BlockSet& solid, double voxel_size_m)
-      : solid_(solid), voxel_size_m_(voxel_size_m) {
+      : solid_(solid),
+        voxel_size_m_(voxel_size_m),
+        reach_m_(kReachOfPackets * voxel_size_m * solid.layout().voxels().last.maxCoeff()) {
     const BlockLayout& layout = solid.layout();
     Eigen::Vector3i low = layout.voxels().last, high = Eigen::Vector3i::Zero();
     layout.blocks().for_each([&](const Eigen::Vector3i& block) {
@@ -105,14 +113,25 @@ class VoxelOccluders final : public Occluders {
       high = high.cwiseMax(layout.voxels_in_block(block).last);
     });
     bounds_ = {low, high};
+    SceneBuilder builder;
+    builder.add_mesh(larger_boxes());
+    larger_ = builder.build();
   }
 
   bool empty() const override { return filled_.empty(); }
 
-  void hidden(std::span<const Eigen::Vector3i> voxels, PointsView,
+  /// Packets of rays against slightly larger boxes tell which lines of sight are free for certain:
+  /// most of them. The others are walked in double precision.
+  void hidden(std::span<const Eigen::Vector3i> voxels, PointsView centres,
               const Eigen::Vector3d& camera_centre, std::span<std::uint8_t> result) const override {
+    if (camera_centre.cwiseAbs().maxCoeff() <= reach_m_) {
+      larger_->occluded(centres, camera_centre.cast<float>(), result);
+    } else {
+      std::fill(result.begin(), result.end(), std::uint8_t(1));
+    }
     const Eigen::Vector3d camera = camera_centre / voxel_size_m_;
     for (std::size_t i = 0; i < voxels.size(); ++i) {
+      if (result[i] == 0) continue;
       result[i] = VoxelWalk(voxels[i], camera).meets(bounds_, [&](const Eigen::Vector3i& v) {
         return solid_.test(v);
       });
@@ -131,6 +150,17 @@ class VoxelOccluders final : public Occluders {
   }
 
  private:
+  /// Boxes around the solid voxels, larger by more than rays to cameras within `reach_m_` err.
+  TriangleMesh larger_boxes() const {
+    const Eigen::Vector3d grow = Eigen::Vector3d::Constant(kRoundingOfRays * reach_m_);
+    std::vector<Box> boxes;
+    for (const CellRange& box : voxel_boxes(solid_)) {
+      boxes.emplace_back(voxel_size_m_ * box.first.cast<double>() - grow,
+                         voxel_size_m_ * box.last.cast<double>() + grow);
+    }
+    return TriangleMesh::from_boxes(boxes);
+  }
+
   bool solid(const Eigen::Vector3i& v) const {
     return (v.array() >= bounds_.first.array()).all() && (v.array() < bounds_.last.array()).all() &&
            solid_.test(v);
@@ -179,6 +209,8 @@ class VoxelOccluders final : public Occluders {
 
   const BlockSet& solid_;
   double voxel_size_m_;
+  double reach_m_;
+  std::shared_ptr<const Scene> larger_;
   std::vector<Eigen::Vector3i> filled_;
   CellRange bounds_;
 };

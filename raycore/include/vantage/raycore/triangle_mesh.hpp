@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -30,6 +31,9 @@ class VANTAGE_API TriangleMesh {
 
   /// The twelve triangles of a box; faces look outwards.
   static TriangleMesh from_box(const Box& box);
+
+  /// The same for N boxes in one mesh, twelve triangles each, in their order.
+  static TriangleMesh from_boxes(std::span<const Box> boxes);
 
   const std::vector<Eigen::Vector3f>& vertices() const noexcept { return vertices_; }
   const std::vector<Triangle>& triangles() const noexcept { return triangles_; }

@@ -23,8 +23,8 @@ namespace vantage {
 ///    between (`VolumeOptions::occluders` says what hides), and, for a camera with a depth image,
 ///    in front of the surface band around the depth measured at the nearest pixel, without a
 ///    measured point inside the voxel;
-/// 3. occupied if it is at a surface that some depth image shows: a measured point lies in it, or
-///    its centre is inside the surface band;
+/// 3. occupied if its centre is in view of a camera whose depth image shows a surface there: a
+///    measured point lies in the voxel, or its centre is inside the surface band;
 /// 4. shadow otherwise. Unknown depth proves nothing.
 ///
 /// Then, if it is on, anti-aliasing frees every shadow voxel that has fewer than 5 shadow voxels

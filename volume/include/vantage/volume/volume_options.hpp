@@ -37,12 +37,12 @@ struct VolumeOptions {
 
   /// Thesis 7.2.4: shadow voxels with fewer than 5 of 6 neighbours in shadow become free.
   /// Unset: on where the occluders are voxels, whose steps cast the thin shadows that it is for.
-  std::optional<bool> anti_alias;
+  std::optional<bool> anti_alias = {};
 
   /// The band around a measured surface is max(voxel size, band_sigmas · σ(z)) thick: with 4, two
   /// sigmas to either side.
   double band_sigmas = 4;
-  StereoNoise noise;
+  StereoNoise noise = {};
 
   bool anti_aliased() const { return anti_alias.value_or(occluders == OccluderMode::voxels); }
 
