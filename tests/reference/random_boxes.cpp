@@ -85,18 +85,20 @@ BoxWorld random_rods(std::uint32_t seed, double voxel_size_m) {
   return world;
 }
 
-BoxWorld random_lattice_boxes(std::uint32_t seed) {
-  constexpr double kVoxel = 1.0 / 64;
-  const Eigen::Vector3d low(-8 * kVoxel, -7 * kVoxel, 0), high(8 * kVoxel, 7 * kVoxel, 13 * kVoxel);
+BoxWorld random_lattice_boxes(std::uint32_t seed, int finer) {
+  constexpr double kCoarse = 1.0 / 64;
+  const double voxel_m = kCoarse / finer;
+  const Eigen::Vector3d low(-8 * kCoarse, -7 * kCoarse, 0),
+      high(8 * kCoarse, 7 * kCoarse, 13 * kCoarse);
   Random random(seed);
   BoxWorld world = random_boxes(seed);
-  world.geometry = GridGeometry::covering(Box(low, high), kVoxel);
+  world.geometry = GridGeometry::covering(Box(low, high), voxel_m);
   const auto half_voxels = [&](int from, int to) {
-    return 0.5 * kVoxel * (from + int(random.below(std::uint32_t(to - from))));
+    return 0.5 * voxel_m * (from + int(random.below(std::uint32_t(to - from))));
   };
   for (PinholeCamera& camera : world.cameras) {
-    const double x = half_voxels(-60, 60), y = half_voxels(-60, 60);
-    const Eigen::Vector3d eye(x, y, half_voxels(20, 80));
+    const double x = half_voxels(-60 * finer, 60 * finer), y = half_voxels(-60 * finer, 60 * finer);
+    const Eigen::Vector3d eye(x, y, half_voxels(20 * finer, 80 * finer));
     camera = PinholeCamera({640, 480, 200, 200, 319.3, 239.7},
                            Pose::looking_at(eye, {0.003, 0.004, 0.1}), {0.01, 5});
   }
@@ -104,9 +106,10 @@ BoxWorld random_lattice_boxes(std::uint32_t seed) {
   for (TurnedBox& box : world.boxes) {
     Eigen::Vector3d centre;
     for (int axis = 0; axis < 3; ++axis) {
-      const int sides = 1 + int(random.below(5)), corner = -8 + int(random.below(16));
-      box.half[axis] = 0.5 * sides * kVoxel;
-      centre[axis] = (corner + 0.5 * sides + (axis == 2 ? 7 : 0)) * kVoxel;
+      const int sides = 1 + int(random.below(std::uint32_t(5 * finer)));
+      const int corner = -8 * finer + int(random.below(std::uint32_t(16 * finer)));
+      box.half[axis] = 0.5 * sides * voxel_m;
+      centre[axis] = (corner + 0.5 * sides + (axis == 2 ? 7 * finer : 0)) * voxel_m;
     }
     box.T_world_box = Pose::from_translation(centre);
   }

@@ -33,7 +33,7 @@ BoxWorld random_rods(std::uint32_t seed, double voxel_size_m);
 
 /// The awkward cases: cameras on corners, edges, faces and centres of voxels, so that lines of
 /// sight run along axes and through voxels' edges and corners. Every other seed has boxes that fill
-/// whole voxels. Voxels of 1/64 m: no rounding anywhere.
-BoxWorld random_lattice_boxes(std::uint32_t seed);
+/// whole voxels. Voxels of 1/64 m, or `finer` times smaller, a power of 2: no rounding anywhere.
+BoxWorld random_lattice_boxes(std::uint32_t seed, int finer = 1);
 
 }  // namespace vantage::test

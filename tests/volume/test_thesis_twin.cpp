@@ -53,7 +53,6 @@ Tally compare_scenes(std::size_t scenes, bool anti_alias, const WorldOf& world_o
 void check(const Tally& tally) {
   MESSAGE(tally.compared << " voxels compared, " << tally.close_calls << " too close to call");
   CHECK(tally.close_calls * 100 < tally.compared);
-  CHECK(tally.unseen > 300);
   for (const VoxelState state : {VoxelState::free, VoxelState::occupied, VoxelState::shadow}) {
     CHECK(tally.states[std::size_t(state)] > 1000);
   }
@@ -62,7 +61,9 @@ void check(const Tally& tally) {
 }  // namespace
 
 TEST_CASE("voxels mode equals the thesis' algorithm voxel for voxel") {
-  check(compare_scenes(32, false, [](auto seed) { return test::random_boxes(seed); }));
+  const Tally tally = compare_scenes(32, false, [](auto seed) { return test::random_boxes(seed); });
+  check(tally);
+  CHECK(tally.unseen > 1000);
 }
 
 TEST_CASE("voxels mode with anti-aliasing equals the thesis' algorithm voxel for voxel") {
@@ -71,11 +72,12 @@ TEST_CASE("voxels mode with anti-aliasing equals the thesis' algorithm voxel for
 
 TEST_CASE("voxels mode equals the thesis' algorithm where voxels are fine") {
   check(compare_scenes(2, false, [](auto seed) { return test::random_boxes(seed, 0.005); }));
-  check(compare_scenes(8, false, [](auto seed) { return test::random_rods(seed, 0.005); }));
+  check(compare_scenes(4, false, [](auto seed) { return test::random_rods(seed, 0.005); }));
 }
 
 TEST_CASE("voxels mode equals the thesis' algorithm along axes, edges and corners of voxels") {
   check(compare_scenes(60, false, [](auto seed) { return test::random_lattice_boxes(seed); }));
+  check(compare_scenes(3, false, [](auto seed) { return test::random_lattice_boxes(seed, 4); }));
 }
 
 TEST_CASE("anti-aliasing is on by default where voxels hide, and off where meshes do") {
