@@ -4,7 +4,7 @@
 #include <cstring>
 #include <limits>
 
-#include "multiversion.hpp"
+#include "vantage/raycore/multiversion.hpp"
 
 namespace vantage::bench {
 namespace {
