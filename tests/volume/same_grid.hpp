@@ -20,7 +20,7 @@ inline void check_same_report(const VolumeReport& a, const VolumeReport& b) {
 }
 
 /// Checks that two grids say the same of every voxel; they may lie at different places.
-inline void check_same_grid(const StateGrid& a, const StateGrid& b) {
+inline void expect_same_grid(const StateGrid& a, const StateGrid& b) {
   REQUIRE(a.geometry().size() == b.geometry().size());
   std::size_t differences = 0;
   Eigen::Vector3i last = Eigen::Vector3i::Constant(-1);

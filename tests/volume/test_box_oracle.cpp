@@ -37,7 +37,7 @@ void compare_with_oracle(const test::BoxWorld& world, int every, Tally& tally) {
   });
 }
 
-void check(const Tally& tally) {
+void expect_enough(const Tally& tally) {
   MESSAGE(tally.compared << " voxels compared, " << tally.close_calls << " too close to call");
   CHECK(tally.close_calls * 50 < tally.compared);
   CHECK(tally.unseen > 300);
@@ -54,7 +54,7 @@ TEST_CASE("mesh mode equals the closed form for boxes but for centres close to a
     CAPTURE(seed);
     compare_with_oracle(test::random_boxes(seed), 1, tally);
   }
-  check(tally);
+  expect_enough(tally);
 }
 
 // Finer than the objects by far, so that most blocks of 8³ voxels are decided at once.
@@ -64,7 +64,7 @@ TEST_CASE("mesh mode equals the closed form where voxels are fine") {
     CAPTURE(seed);
     compare_with_oracle(test::random_boxes(seed, 0.003), 3, tally);
   }
-  check(tally);
+  expect_enough(tally);
 }
 
 TEST_CASE("mesh mode equals the closed form for thin rods and plates in fine voxels") {
@@ -73,7 +73,7 @@ TEST_CASE("mesh mode equals the closed form for thin rods and plates in fine vox
     CAPTURE(seed);
     compare_with_oracle(test::random_rods(seed, 0.003), 3, tally);
   }
-  check(tally);
+  expect_enough(tally);
 }
 
 TEST_CASE("mesh mode equals the closed form for lines of sight along axes and past aligned faces") {
@@ -82,7 +82,7 @@ TEST_CASE("mesh mode equals the closed form for lines of sight along axes and pa
     CAPTURE(seed);
     compare_with_oracle(test::random_lattice_boxes(seed), 1, tally);
   }
-  check(tally);
+  expect_enough(tally);
 }
 
 TEST_CASE("the closed form for boxes agrees with rays against triangles and solid angles") {

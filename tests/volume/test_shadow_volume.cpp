@@ -64,17 +64,17 @@ TEST_CASE("after any sequence of new images and moves a volume is what starting 
       CAPTURE(seed);
       Follower follower(seed, options);
       const auto first = follower.grid(), first_from_scratch = follower.from_scratch();
-      test::check_same_grid(*first, *first_from_scratch);
+      test::expect_same_grid(*first, *first_from_scratch);
       for (int step = 0; step < 10; ++step) {
         CAPTURE(step);
         follower.change_something();
         if (step % 3 == 1) continue;  // several changes between two grids
         const auto expected = follower.from_scratch();
-        test::check_same_grid(*follower.grid(), *expected);
+        test::expect_same_grid(*follower.grid(), *expected);
         CHECK(follower.grid()->centres(VoxelState::shadow).x ==
               expected->centres(VoxelState::shadow).x);
       }
-      test::check_same_grid(*first, *first_from_scratch);  // grids handed out do not change
+      test::expect_same_grid(*first, *first_from_scratch);  // grids handed out do not change
     }
   }
 }
@@ -102,7 +102,7 @@ TEST_CASE("a volume refuses images and cameras that do not fit, and stays as it 
   test::expect_bad_input("camera 0", "3×4", [&] {
     volume.move_camera(0, Pose::from_translation({0, 0, 1}) * pose, misfit);
   });
-  test::check_same_grid(*before, *volume.grid());
+  test::expect_same_grid(*before, *volume.grid());
 }
 
 TEST_CASE("a volume that was told to stop stays without a grid") {

@@ -76,7 +76,7 @@ double distance_to_faces(const StateGrid& grid, const Eigen::Vector3f& point) {
   return nearest;
 }
 
-void check_smooth(const StateGrid& grid, double tolerance) {
+void expect_smooth(const StateGrid& grid, double tolerance) {
   const TriangleMesh mesh = smooth_surface(grid, VoxelState::shadow);
   CHECK(simple(mesh));
   CHECK(mesh.dropped_degenerate() == 0);
@@ -94,15 +94,15 @@ void check_smooth(const StateGrid& grid, double tolerance) {
 }  // namespace
 
 TEST_CASE("the smooth surface of a ball and of a box is closed, near the faces, and as large") {
-  check_smooth(*shadow_where(geometry_of(40, 40, 40), ball({20, 19.5, 20.2}, 13)), 0.02);
-  check_smooth(*shadow_where(geometry_of(40, 40, 40), box({5, 8, 11}, {33, 30, 31})), 0.03);
+  expect_smooth(*shadow_where(geometry_of(40, 40, 40), ball({20, 19.5, 20.2}, 13)), 0.02);
+  expect_smooth(*shadow_where(geometry_of(40, 40, 40), box({5, 8, 11}, {33, 30, 31})), 0.03);
 }
 
 TEST_CASE("the smooth surface closes at the work area's border") {
-  check_smooth(*shadow_where(geometry_of(40, 24, 32), [](const Eigen::Vector3i&) { return true; }),
-               0.04);
-  check_smooth(*shadow_where(geometry_of(40, 24, 32), ball({0, 12, 16}, 13)), 0.04);
-  check_smooth(*shadow_where(geometry_of(56, 48, 40), box({0, 0, 0}, {52, 48, 36})), 0.03);
+  expect_smooth(*shadow_where(geometry_of(40, 24, 32), [](const Eigen::Vector3i&) { return true; }),
+                0.04);
+  expect_smooth(*shadow_where(geometry_of(40, 24, 32), ball({0, 12, 16}, 13)), 0.04);
+  expect_smooth(*shadow_where(geometry_of(56, 48, 40), box({0, 0, 0}, {52, 48, 36})), 0.03);
 }
 
 TEST_CASE("the smooth surface keeps every voxel on its side, however thin the shadow") {

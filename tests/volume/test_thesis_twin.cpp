@@ -50,7 +50,7 @@ Tally compare_scenes(std::size_t scenes, bool anti_alias, const WorldOf& world_o
   return tally;
 }
 
-void check(const Tally& tally) {
+void expect_enough(const Tally& tally) {
   MESSAGE(tally.compared << " voxels compared, " << tally.close_calls << " too close to call");
   CHECK(tally.close_calls * 100 < tally.compared);
   for (const VoxelState state : {VoxelState::free, VoxelState::occupied, VoxelState::shadow}) {
@@ -62,22 +62,25 @@ void check(const Tally& tally) {
 
 TEST_CASE("voxels mode equals the thesis' algorithm voxel for voxel") {
   const Tally tally = compare_scenes(32, false, [](auto seed) { return test::random_boxes(seed); });
-  check(tally);
+  expect_enough(tally);
   CHECK(tally.unseen > 1000);
 }
 
 TEST_CASE("voxels mode with anti-aliasing equals the thesis' algorithm voxel for voxel") {
-  check(compare_scenes(32, true, [](auto seed) { return test::random_boxes(seed); }));
+  expect_enough(compare_scenes(32, true, [](auto seed) { return test::random_boxes(seed); }));
 }
 
 TEST_CASE("voxels mode equals the thesis' algorithm where voxels are fine") {
-  check(compare_scenes(2, false, [](auto seed) { return test::random_boxes(seed, 0.005); }));
-  check(compare_scenes(4, false, [](auto seed) { return test::random_rods(seed, 0.005); }));
+  expect_enough(
+      compare_scenes(2, false, [](auto seed) { return test::random_boxes(seed, 0.005); }));
+  expect_enough(compare_scenes(4, false, [](auto seed) { return test::random_rods(seed, 0.005); }));
 }
 
 TEST_CASE("voxels mode equals the thesis' algorithm along axes, edges and corners of voxels") {
-  check(compare_scenes(60, false, [](auto seed) { return test::random_lattice_boxes(seed); }));
-  check(compare_scenes(3, false, [](auto seed) { return test::random_lattice_boxes(seed, 4); }));
+  expect_enough(
+      compare_scenes(60, false, [](auto seed) { return test::random_lattice_boxes(seed); }));
+  expect_enough(
+      compare_scenes(3, false, [](auto seed) { return test::random_lattice_boxes(seed, 4); }));
 }
 
 TEST_CASE("anti-aliasing is on by default where voxels hide, and off where meshes do") {
