@@ -117,7 +117,7 @@ TEST_CASE("volumes converge to the exact ones as voxels shrink, in mesh mode bey
   CHECK(mesh.occupied > 1.2);
   CHECK(mesh.finest_shadow_error < 0.002);
 
-  // Voxels that stick out of the objects cast a shadow of their own: half a voxel all around.
+  // What is cast by steps instead of faces is worse.
   const Orders voxels = measure(test::volume_mode(OccluderMode::voxels, false), "voxels");
   CHECK(voxels.shadow > 0.8);
   CHECK(voxels.finest_shadow_error > mesh.finest_shadow_error);
