@@ -112,4 +112,24 @@ TEST_CASE("a volume that was told to stop stays without a grid") {
   CHECK(volume.grid() == nullptr);
 }
 
+TEST_CASE("a change that was stopped leaves no grid until it is done again") {
+  const WorldModel world = test::random_workcell(1);
+  const Observer& camera = world.cameras[0];
+  const Pose& pose = camera.camera.T_world_cam();
+  const StopToken stop;
+  stop.cancel();
+  ShadowVolume volume(world, small_grid());
+  const auto before = volume.grid();
+  volume.set_depth(0, camera.depth, stop);
+  CHECK(volume.grid() == nullptr);
+  volume.set_depth(0, camera.depth);
+  test::expect_same_grid(*before, *volume.grid());
+
+  volume.move_camera(0, pose, camera.depth, stop);
+  volume.set_depth(0, camera.depth);  // does not trace the rays that were left out
+  CHECK(volume.grid() == nullptr);
+  volume.move_camera(0, pose, camera.depth);
+  test::expect_same_grid(*before, *volume.grid());
+}
+
 }  // namespace vantage

@@ -16,6 +16,7 @@ struct CameraEvidence {
   PinholeCamera camera;  ///< in the grid's frame
   Sight sight;
   std::optional<DepthEvidence> depth;
+  bool traced = false, measured = false;  ///< whether `sight` and `depth` are complete
 
   CameraEvidence(const PinholeCamera& c, const BlockLayout& layout) : camera(c), sight(layout) {}
 };

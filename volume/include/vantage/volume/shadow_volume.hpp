@@ -23,8 +23,8 @@ namespace vantage {
 /// grids that it hands out are immutable and independent of it.
 class VANTAGE_API ShadowVolume {
  public:
-  /// Voxelises the known objects and traces every camera's rays.
-  /// If `stop` asks to stop, the volume stays incomplete and `grid()` returns null.
+  /// Voxelises the known objects and traces every camera's rays. `stop` may stop that; it is not
+  /// kept for later.
   /// @throws Error bad_input as `classify` does.
   ShadowVolume(const WorldModel& world, const GridGeometry& geometry,
                const VolumeOptions& options = {}, const StopToken& stop = {});
@@ -33,14 +33,18 @@ class VANTAGE_API ShadowVolume {
   ShadowVolume& operator=(const ShadowVolume&) = delete;
 
   /// Replaces what camera `camera` (its index in the world model) measured; null for nothing.
-  /// @throws Error bad_input for an index out of range, or if the image does not fit the camera.
-  void set_depth(std::size_t camera, std::shared_ptr<const DepthImage> depth);
+  /// @throws Error bad_input for an index out of range, or if the image does not fit the camera;
+  /// nothing has changed then.
+  void set_depth(std::size_t camera, std::shared_ptr<const DepthImage> depth,
+                 const StopToken& stop = {});
 
   /// The camera moved, and measured `depth` there.
   /// @throws Error as `set_depth` does.
   void move_camera(std::size_t camera, const Pose& T_world_cam,
-                   std::shared_ptr<const DepthImage> depth);
+                   std::shared_ptr<const DepthImage> depth, const StopToken& stop = {});
 
+  /// The state of every voxel now; null while something that was stopped has not been done again:
+  /// for a camera `set_depth` or `move_camera`, for the construction a new volume.
   std::shared_ptr<const StateGrid> grid() const;
 
  private:
