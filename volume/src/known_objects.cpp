@@ -21,6 +21,21 @@ std::string open_mesh_warning(const KnownObject& object, const MeshTopology& top
   return text;
 }
 
+using Topologies = std::map<const TriangleMesh*, std::shared_ptr<const MeshTopology>>;
+
+/// One for each mesh, however many objects share it.
+Topologies topologies_of(const std::vector<const KnownObject*>& objects) {
+  Topologies topologies;
+  for (const KnownObject* object : objects) topologies.try_emplace(object->mesh.get());
+  std::vector<Topologies::iterator> entries;
+  for (auto entry = topologies.begin(); entry != topologies.end(); ++entry)
+    entries.push_back(entry);
+  tbb::parallel_for(std::size_t(0), entries.size(), [&](std::size_t i) {
+    entries[i]->second = std::make_shared<const MeshTopology>(*entries[i]->first);
+  });
+  return topologies;
+}
+
 }  // namespace
 
 KnownObjects::KnownObjects(const WorldModel& world, const GridFrame& frame,
@@ -28,10 +43,9 @@ KnownObjects::KnownObjects(const WorldModel& world, const GridFrame& frame,
     : solid(frame.layout), surface_octants(frame.layout.block_count()) {
   std::vector<const KnownObject*> objects;
   for_each_known(world, [&](const KnownObject& object) { objects.push_back(&object); });
-  std::map<const TriangleMesh*, std::shared_ptr<const MeshTopology>> topologies;
+  const Topologies topologies = topologies_of(objects);
   for (const KnownObject* object : objects) {
-    std::shared_ptr<const MeshTopology>& topology = topologies[object->mesh.get()];
-    if (!topology) topology = std::make_shared<const MeshTopology>(*object->mesh);
+    const std::shared_ptr<const MeshTopology>& topology = topologies.at(object->mesh.get());
     meshes.push_back({object->mesh, topology, T_grid_world * object->T_world_object});
     names.push_back(object->name);
     if (topology->closure == Closure::open && !object->mesh->empty()) {
