@@ -3,6 +3,7 @@
 #include "reference/plain_classify.hpp"
 #include "reference/random_boxes.hpp"
 #include "reference/thesis_volume.hpp"
+#include "support/scene_count.hpp"
 #include "vantage/volume/classify.hpp"
 
 namespace vantage {
@@ -50,7 +51,7 @@ void expect_enough(const Tally& tally) {
 
 TEST_CASE("mesh mode equals the closed form for boxes but for centres close to a silhouette") {
   Tally tally;
-  for (std::uint32_t seed = 100; seed < 140; ++seed) {
+  for (std::uint32_t seed = 100; seed < 100 + test::scene_count(40); ++seed) {
     CAPTURE(seed);
     compare_with_oracle(test::random_boxes(seed), 1, tally);
   }
@@ -60,7 +61,7 @@ TEST_CASE("mesh mode equals the closed form for boxes but for centres close to a
 // Finer than the objects by far, so that most blocks of 8³ voxels are decided at once.
 TEST_CASE("mesh mode equals the closed form where voxels are fine") {
   Tally tally;
-  for (std::uint32_t seed = 140; seed < 148; ++seed) {
+  for (std::uint32_t seed = 140; seed < 140 + test::scene_count(8); ++seed) {
     CAPTURE(seed);
     compare_with_oracle(test::random_boxes(seed, 0.003), 3, tally);
   }
@@ -69,7 +70,7 @@ TEST_CASE("mesh mode equals the closed form where voxels are fine") {
 
 TEST_CASE("mesh mode equals the closed form for thin rods and plates in fine voxels") {
   Tally tally;
-  for (std::uint32_t seed = 150; seed < 158; ++seed) {
+  for (std::uint32_t seed = 150; seed < 150 + test::scene_count(8); ++seed) {
     CAPTURE(seed);
     compare_with_oracle(test::random_rods(seed, 0.003), 3, tally);
   }
@@ -78,7 +79,7 @@ TEST_CASE("mesh mode equals the closed form for thin rods and plates in fine vox
 
 TEST_CASE("mesh mode equals the closed form for lines of sight along axes and past aligned faces") {
   Tally tally;
-  for (std::uint32_t seed = 0; seed < 60; ++seed) {
+  for (std::uint32_t seed = 0; seed < test::scene_count(60); ++seed) {
     CAPTURE(seed);
     compare_with_oracle(test::random_lattice_boxes(seed), 1, tally);
   }

@@ -4,6 +4,7 @@
 #include "reference/plain_classify.hpp"
 #include "reference/random_workcell.hpp"
 #include "reference/thesis_volume.hpp"
+#include "support/scene_count.hpp"
 #include "vantage/volume/classify.hpp"
 
 namespace vantage {
@@ -31,7 +32,7 @@ WorldModel bumpy_workcell(std::uint32_t seed) {
 TEST_CASE("a sample of fine voxels, known objects and depth together, equals the plain algorithm") {
   std::size_t compared = 0, close_calls = 0;
   std::array<std::size_t, 4> seen{};
-  for (std::uint32_t seed = 300; seed < 310; ++seed) {
+  for (std::uint32_t seed = 300; seed < 300 + test::scene_count(10); ++seed) {
     CAPTURE(seed);
     const WorldModel world = bumpy_workcell(seed);
     const GridGeometry geometry = GridGeometry::covering(test::random_workcell_area(), 0.0025);

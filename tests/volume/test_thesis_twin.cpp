@@ -2,6 +2,7 @@
 
 #include "reference/random_boxes.hpp"
 #include "reference/thesis_volume.hpp"
+#include "support/scene_count.hpp"
 #include "vantage/volume/classify.hpp"
 #include "volume/volume_modes.hpp"
 
@@ -61,26 +62,29 @@ void expect_enough(const Tally& tally) {
 }  // namespace
 
 TEST_CASE("voxels mode equals the thesis' algorithm voxel for voxel") {
-  const Tally tally = compare_scenes(32, false, [](auto seed) { return test::random_boxes(seed); });
+  const Tally tally = compare_scenes(test::scene_count(32), false,
+                                     [](auto seed) { return test::random_boxes(seed); });
   expect_enough(tally);
   CHECK(tally.unseen > 1000);
 }
 
 TEST_CASE("voxels mode with anti-aliasing equals the thesis' algorithm voxel for voxel") {
-  expect_enough(compare_scenes(32, true, [](auto seed) { return test::random_boxes(seed); }));
+  expect_enough(compare_scenes(test::scene_count(32), true,
+                               [](auto seed) { return test::random_boxes(seed); }));
 }
 
 TEST_CASE("voxels mode equals the thesis' algorithm where voxels are fine") {
-  expect_enough(
-      compare_scenes(2, false, [](auto seed) { return test::random_boxes(seed, 0.005); }));
-  expect_enough(compare_scenes(4, false, [](auto seed) { return test::random_rods(seed, 0.005); }));
+  expect_enough(compare_scenes(test::scene_count(2), false,
+                               [](auto seed) { return test::random_boxes(seed, 0.005); }));
+  expect_enough(compare_scenes(test::scene_count(4), false,
+                               [](auto seed) { return test::random_rods(seed, 0.005); }));
 }
 
 TEST_CASE("voxels mode equals the thesis' algorithm along axes, edges and corners of voxels") {
-  expect_enough(
-      compare_scenes(60, false, [](auto seed) { return test::random_lattice_boxes(seed); }));
-  expect_enough(
-      compare_scenes(3, false, [](auto seed) { return test::random_lattice_boxes(seed, 4); }));
+  expect_enough(compare_scenes(test::scene_count(60), false,
+                               [](auto seed) { return test::random_lattice_boxes(seed); }));
+  expect_enough(compare_scenes(test::scene_count(3), false,
+                               [](auto seed) { return test::random_lattice_boxes(seed, 4); }));
 }
 
 TEST_CASE("anti-aliasing is on by default where voxels hide, and off where meshes do") {
