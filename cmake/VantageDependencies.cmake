@@ -22,4 +22,5 @@ find_path(VANTAGE_OPENVDB_MODULE FindOpenVDB.cmake
 list(APPEND CMAKE_MODULE_PATH "${VANTAGE_OPENVDB_MODULE}")
 find_package(OpenVDB REQUIRED COMPONENTS openvdb)
 
-find_package(OpenCV REQUIRED COMPONENTS core imgcodecs)
+# Debian 12 has the marker dictionaries in `aruco`, Debian 13 in `objdetect`.
+find_package(OpenCV REQUIRED COMPONENTS core imgcodecs imgproc calib3d objdetect aruco)
