@@ -1,0 +1,67 @@
+#include "simulator/flying_pixels.hpp"
+
+#include <tbb/parallel_for.h>
+
+#include <array>
+#include <cmath>
+
+#include "simulator/normal_noise.hpp"
+
+namespace vantage::detail {
+namespace {
+
+constexpr float kJump = 0.02f;
+
+/// A number in [0, 1).
+double unit(std::uint64_t hash) {
+  return double(hash >> 11) * 0x1p-53;
+}
+
+class Mixer {
+ public:
+  Mixer(const std::vector<float>& metres, int width, int height)
+      : metres_(metres), width_(width), height_(height) {}
+
+  /// The neighbour that differs most in depth; the pixel's own depth if none jumps.
+  float other_side(int u, int v) const {
+    const float own = at(u, v);
+    float other = own, widest = kJump * own;
+    for (const auto& [du, dv] : kNeighbours) {
+      const float z = at(u + du, v + dv);
+      if (std::fabs(z - own) > widest) other = z, widest = std::fabs(z - own);
+    }
+    return other;
+  }
+
+  float at(int u, int v) const {
+    if (u < 0 || v < 0 || u >= width_ || v >= height_) return std::nanf("");
+    return metres_[std::size_t(v) * std::size_t(width_) + std::size_t(u)];
+  }
+
+ private:
+  static constexpr std::array<std::array<int, 2>, 4> kNeighbours{
+      {{-1, 0}, {1, 0}, {0, -1}, {0, 1}}};
+  const std::vector<float>& metres_;
+  int width_, height_;
+};
+
+}  // namespace
+
+void add_flying_pixels(std::vector<float>& metres, int width, int height, double share,
+                       std::uint64_t seed) {
+  const std::vector<float> before = metres;
+  const Mixer mixer(before, width, height);
+  tbb::parallel_for(0, height, [&](int v) {
+    for (int u = 0; u < width; ++u) {
+      const float own = mixer.at(u, v), other = mixer.other_side(u, v);
+      if (!(own != other) || std::isnan(own)) continue;
+      const std::size_t pixel = std::size_t(v) * std::size_t(width) + std::size_t(u);
+      const std::uint64_t chance = hash64(hash64(seed ^ 0xF1F1F1F1u) + pixel);
+      if (unit(chance) >= share) continue;
+      const double weight = unit(hash64(chance));
+      metres[pixel] = float(1 / ((1 - weight) / double(own) + weight / double(other)));
+    }
+  });
+}
+
+}  // namespace vantage::detail

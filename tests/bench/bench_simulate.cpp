@@ -1,0 +1,192 @@
+// Frames per second of the simulated cameras, and what part of bare Embree's ray rate they reach:
+// the time of bare calls with the same rays over the camera's time, taken in turns on one thread.
+
+#include <benchmark/benchmark.h>
+#include <tbb/task_arena.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "bare_embree.hpp"
+#include "simulator/color_sensor.hpp"
+#include "simulator/depth_sensor.hpp"
+#include "timing.hpp"
+#include "workload.hpp"
+
+namespace vantage::bench {
+namespace {
+
+constexpr Intrinsics kCamera{640, 480, 615, 615, 319.5, 239.5};
+
+/// Like the thesis' Wall: three cubes of 5 cm in a row on the board, one on top, one behind.
+std::vector<SimulatedBody> wall_bodies() {
+  const auto shape_of = [](const Box& box) {
+    return std::make_shared<const TexturedMesh>(TexturedMesh{TriangleMesh::from_box(box)});
+  };
+  const auto cube = shape_of(Box({-0.025, -0.025, -0.025}, {0.025, 0.025, 0.025}));
+  std::vector<SimulatedBody> bodies{
+      {"board", shape_of(Box({-0.25, -0.175, -0.01}, {0.25, 0.175, 0})), {}}};
+  const std::vector<Eigen::Vector3d> places{
+      {-0.05, 0, 0.025}, {0, 0, 0.025}, {0.05, 0, 0.025}, {0, 0, 0.075}, {0, 0.05, 0.025}};
+  for (const Eigen::Vector3d& p : places) {
+    bodies.push_back({"cube", cube, Pose::from_translation(p)});
+  }
+  return bodies;
+}
+
+struct Setting {
+  SimulatedScene scene{wall_bodies()};
+  PinholeCamera camera{kCamera, Pose::looking_at({0.12, -0.5, 0.4}, {0, 0, 0.03}), {}};
+  std::vector<TriangleMesh> meshes;
+  BareScene bare;
+
+  Setting() : meshes(placed_meshes(scene)), bare(meshes) {}
+
+  static std::vector<TriangleMesh> placed_meshes(const SimulatedScene& scene) {
+    std::vector<TriangleMesh> meshes;
+    for (const SimulatedBody& body : scene.bodies()) {
+      meshes.push_back(body.shape->mesh.transformed(body.T_world_body));
+    }
+    return meshes;
+  }
+};
+
+/// The pixels' rays, tile by tile as the sensor traces them.
+Workload first_rays(const Setting& s) {
+  Workload work{"first", &s.meshes, {}, {}, {}, false, true, true};
+  for (int tile = 0; tile < kCamera.width * kCamera.height / 16; ++tile) {
+    const int tiles_across = kCamera.width / 4;
+    for (int i = 0; i < 16; ++i) {
+      const PixelRay ray =
+          s.camera.pixel_ray(tile % tiles_across * 4 + i % 4, tile / tiles_across * 4 + i / 4);
+      work.origins.push_back(ray.origin.cast<float>());
+      work.directions.push_back(ray.direction.cast<float>());
+      work.ends.push_back((ray.origin + ray.direction).cast<float>());
+    }
+  }
+  return work;
+}
+
+/// From all that the packets of 16 rays met, where they met anything, to another device of the
+/// camera.
+Workload second_rays(const Setting& s, const Workload& first, double offset_m) {
+  Workload work{"second", &s.meshes, {}, {}, {}, true, false, true};
+  const Eigen::Vector3f end =
+      (s.camera.centre() + offset_m * s.camera.T_world_cam().rotation().col(0)).cast<float>();
+  Hits hits;
+  s.scene.rays().closest_hits(first.origins[0], first.directions, hits);
+  const auto any_hit = [&](std::size_t packet) {
+    for (std::size_t i = 0; i < 16; ++i) {
+      if (hits.hit(16 * packet + i)) return true;
+    }
+    return false;
+  };
+  for (std::size_t i = 0; i < first.size(); ++i) {
+    if (!any_hit(i / 16)) continue;
+    const float t = hits.hit(i) ? hits.t[i] : 3.0f;
+    const Eigen::Vector3f from =
+        first.origins[i] + t * first.directions[i] + 1e-4f * hits.normal[i];
+    work.origins.push_back(from);
+    work.directions.push_back(end - from);
+    work.ends.push_back(end);
+  }
+  return work;
+}
+
+/// A part of a depth image's rays by Embree alone, again and again: prepared packets that stay in
+/// the cache, so that Embree does not wait for memory. What it takes for all of them follows.
+class BarePart {
+ public:
+  explicit BarePart(const Workload& all)
+      : rays_(all.size()), work_(in_cache(all)), bare_(work_), blocked_(work_.size()) {
+    hits_.resize(work_.size());
+  }
+
+  double seconds_of_all(const BareScene& scene) {
+    const double seconds = thread_seconds([&] {
+      if (work_.one_end) {
+        bare_.occluded16(scene, blocked_.data(), true);
+      } else {
+        bare_.intersect16(scene, hits_, true);
+      }
+    });
+    return seconds * double(rays_) / double(work_.size());
+  }
+  std::size_t rays() const { return rays_; }
+
+ private:
+  std::size_t rays_;
+  Workload work_;
+  BareRays bare_;
+  Hits hits_;
+  std::vector<std::uint8_t> blocked_;
+};
+
+void frames(benchmark::State& state, int threads, const Work& frame) {
+  tbb::task_arena arena(threads);
+  arena.execute([&] {
+    frame();
+    for (auto _ : state) state.SetIterationTime(wall_seconds(frame));
+  });
+  state.counters["frames/s"] =
+      benchmark::Counter(double(state.iterations()), benchmark::Counter::kIsRate);
+}
+
+void depth_frames(benchmark::State& state, const Setting& s, const StereoSensor& sensor,
+                  int threads) {
+  std::uint64_t seed = 0;
+  frames(state, threads, [&] {
+    benchmark::DoNotOptimize(simulate_depth(s.scene.rays(), s.camera, sensor, seed++));
+  });
+}
+
+void depth_against_bare(benchmark::State& state, const Setting& s) {
+  const Workload first = first_rays(s);
+  const StereoSensor sensor;
+  BarePart pixels(first), imager(second_rays(s, first, sensor.noise.baseline_m)),
+      projector(second_rays(s, first, sensor.projector_m));
+  const auto bare_seconds = [&] {
+    return pixels.seconds_of_all(s.bare) + imager.seconds_of_all(s.bare) +
+           projector.seconds_of_all(s.bare);
+  };
+  std::vector<double> parts;
+  tbb::task_arena one(1);
+  one.execute([&] {
+    std::uint64_t seed = 0;
+    const Work ours = [&] {
+      benchmark::DoNotOptimize(simulate_depth(s.scene.rays(), s.camera, sensor, seed++));
+    };
+    ours(), bare_seconds();
+    for (auto _ : state) {
+      const double own = thread_seconds(ours);
+      parts.push_back(bare_seconds() / own);
+      state.SetIterationTime(own);
+    }
+  });
+  state.SetItemsProcessed(state.iterations() *
+                          std::int64_t(pixels.rays() + imager.rays() + projector.rays()));
+  state.counters["part_of_bare_rate"] = median(parts);
+}
+
+}  // namespace
+}  // namespace vantage::bench
+
+int main(int argc, char** argv) {
+  using namespace vantage::bench;
+  benchmark::Initialize(&argc, argv);
+  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;
+  const Setting setting;
+  const auto add = [](const char* name, const auto& run) {
+    benchmark::RegisterBenchmark(name, run)->UseManualTime()->Unit(benchmark::kMillisecond);
+  };
+  const vantage::StereoSensor noisy, exact = vantage::StereoSensor::ideal();
+  add("depth 640x480, D435, 2 threads",
+      [&](benchmark::State& state) { depth_frames(state, setting, noisy, 2); });
+  add("depth 640x480, ideal, 2 threads",
+      [&](benchmark::State& state) { depth_frames(state, setting, exact, 2); });
+  add("depth 640x480, D435, 1 thread against bare Embree",
+      [&](benchmark::State& state) { depth_against_bare(state, setting); });
+  benchmark::RunSpecifiedBenchmarks();
+  benchmark::Shutdown();
+}
