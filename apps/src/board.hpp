@@ -1,0 +1,32 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <filesystem>
+#include <vector>
+
+#include "document_value.hpp"
+#include "simulator/marker.hpp"
+
+namespace vantage {
+
+/// A plate with markers on it, by which cameras find where they are. It lies flat around the
+/// world's origin; its top is z = 0.
+struct Board {
+  Eigen::Vector2d size_m;
+  double thickness_m = 0.01;
+  Eigen::Vector3f color = {0.9f, 0.9f, 0.9f};  ///< sRGB, 0 to 1
+  std::vector<Marker> markers;                 ///< their poses are T_world_marker
+};
+
+/// Reads a board, or the file that `value` names instead, relative to `folder`; adds that file to
+/// `files`.
+/// @throws Error bad_input with file, line and key for what is not as the schema of the workcell
+/// has it, an id that is there twice, and a marker that is not on the board or on another one.
+Board read_board(const Value& value, const std::filesystem::path& folder,
+                 std::vector<std::filesystem::path>& files);
+
+/// The plate with its markers printed on it, world frame.
+/// @throws Error bad_input as `with_markers` does.
+TexturedMesh board_shape(const Board& board);
+
+}  // namespace vantage
