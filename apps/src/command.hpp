@@ -14,6 +14,9 @@ using Action = std::function<ExitCode()>;
 
 void add_plan_command(CLI::App& app, Action& action);
 void add_demo_command(CLI::App& app, Action& action);
+void add_simulate_command(CLI::App& app, Action& action);
+void add_render_command(CLI::App& app, Action& action);
+void add_evaluate_command(CLI::App& app, Action& action);
 
 /// Options that verbs share.
 struct CommonOptions {

@@ -16,6 +16,7 @@ class Value {
   explicit Value(const Document& document) : Value(document, document.root, "") {}
 
   bool has(const char* key) const { return json_->contains(key); }
+  bool is_null() const { return json_->is_null(); }
   bool is_string() const { return json_->is_string(); }
   Value operator[](const char* key) const {
     return {*document_, json_->at(key), child(pointer_, key)};

@@ -48,6 +48,9 @@ int main(int argc, char** argv) {
   Action action;
   add_plan_command(app, action);
   add_demo_command(app, action);
+  add_simulate_command(app, action);
+  add_render_command(app, action);
+  add_evaluate_command(app, action);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
