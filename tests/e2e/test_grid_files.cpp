@@ -1,8 +1,6 @@
 #include <doctest/doctest.h>
-#include <sys/wait.h>
 
-#include <cstdlib>
-
+#include "python_check.hpp"
 #include "run_command.hpp"
 
 namespace vantage {
@@ -12,21 +10,8 @@ namespace fs = std::filesystem;
 
 constexpr const char* kArguments = " --save-grid --save-surface -o '";
 
-/// Lets the Python script look at what a plan wrote.
 void check_in_python(const fs::path& plan) {
-  const test::TemporaryFolder folder;
-  const std::string log = (folder / "log").string();
-  const std::string command = VANTAGE_PYTHON " '" VANTAGE_E2E_FOLDER "/check_grid_files.py' '" +
-                              plan.string() + "' >'" + log + "' 2>&1";
-  const int status = std::system(command.c_str());
-  const int exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-  const std::string output = test::read_text(log);
-  if (exit_code == 77 || exit_code == 127) {  // 127: there is no Python at all
-    MESSAGE("not checked in Python (apps/setup.sh --test installs what it needs): " << output);
-    return;
-  }
-  CAPTURE(output);
-  CHECK(exit_code == 0);
+  test::check_in_python("check_grid_files.py", plan);
 }
 
 }  // namespace
