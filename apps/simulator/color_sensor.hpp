@@ -18,34 +18,50 @@ struct Distortion {
   bool operator==(const Distortion&) const = default;
 };
 
-/// The light of the cell: a rectangular lamp over it, and a sky that comes from everywhere.
+/// The light of the cell: a square lamp over it, and a sky that comes from everywhere.
+///
+/// A matt surface sends back, of each colour, its share of
+///   lamp: ∫ cos·cos'/r² over the lamp, as if nothing stood between, times the visible part of the
+///         lamp's area – equal to the usual integral where all or nothing of the lamp is visible,
+///         and without noise there;
+///   sky:  the part of the hemisphere, weighted by the cosine, that nothing obstructs within
+///         `sky_reach_m`; what is obstructed counts `bounce` of it.
 struct Lighting {
   Eigen::Vector3f lamp_centre_m = {-0.5f, -0.7f, 1.6f};
-  float lamp_side_m = 0.8f;  ///< it is square, and faces `lamp_target_m`
+  float lamp_side_m = 0.8f;  ///< shines on one side only, which faces `lamp_target_m`
   Eigen::Vector3f lamp_target_m = {0, 0, 0};
-  float lamp_share = 0.65f;  ///< of the light on a surface at the target that faces the lamp; the
-                             ///< sky's is the rest
+  float exposure = 0.85f;    ///< linear signal, full scale 1, of a perfectly white surface at the
+                             ///< target that faces the lamp, with nothing around
+  float lamp_share = 0.65f;  ///< part of that light that the lamp gives; the sky's is the rest
   float sky_reach_m = 0.6f;  ///< what is farther away takes no light of the sky
+  float bounce = 0.3f;       ///< what things around throw back, as a part of the sky's light
   Eigen::Vector3f background = {0.90f, 0.91f, 0.93f};  ///< sRGB; what rays that meet nothing see
 };
 
 /// How a colour camera sees. Every effect can be switched off by its zero.
 struct ColorSensor {
-  int samples_per_pixel = 16;
+  int samples_per_pixel = 16;  ///< 1 to 4096
   Distortion distortion = {};
-  double vignetting = 0;  ///< 0: none; 1: the cos⁴ law in full
+  double vignetting =
+      0;  ///< 0: none; 1: the cos⁴ law in full. The signal times 1 − (1 − cos⁴) · it
   double read_noise = 0;  ///< standard deviation of the linear signal, full scale = 1
   double shot_noise = 0;  ///< variance per unit of linear signal, full scale = 1
 };
 
 /// What the camera photographs: direct light of the lamp with soft shadows, skylight with ambient
-/// occlusion, textures, box-filtered over each pixel's square. No motion blur: nothing moves.
+/// occlusion, textures (the nearest texel), box-filtered over each pixel's square. Noise is normal,
+/// added to the linear signal of each channel; what is above 1 or below 0 is cut off. No motion
+/// blur: nothing moves.
+///
+/// With distortion, pixels show what OpenCV's projectPoints puts there.
 ///
 /// Samples hash (seed, pixel, sample): the same call gives the same bytes at any number of threads.
-/// The camera's depth range is ignored. Runs in the caller's task arena.
+/// The camera's depth range is ignored. Runs in the caller's task arena; `stop` counts bands of
+/// four rows.
 /// @returns nothing if `stop` asked to stop.
-/// @throws Error bad_input for samples outside 1 to 4096, or a distortion that cannot be undone
-/// inside the image (it folds over).
+/// @throws Error bad_input for a setting outside the range that is stated with it, a distortion
+/// that cannot be undone inside the image (it folds over), a body's colour outside 0 to 1, and a
+/// texture without texels or with coordinates that are not finite.
 std::optional<ColorImage> simulate_color(const SimulatedScene& scene, const Lighting& lighting,
                                          const PinholeCamera& camera, const ColorSensor& sensor,
                                          std::uint64_t seed, const StopToken& stop = {});

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "simulator/color_sensor.hpp"
+#include "simulator/lamp.hpp"
+#include "simulator/lens.hpp"
+#include "simulator/sample_table.hpp"
+#include "simulator/surface_color.hpp"
+
+namespace vantage {
+
+struct RayBlock;
+
+/// Room to paint a band in. A task keeps one for all of its bands.
+struct BandScratch {
+  BandScratch();
+  ~BandScratch();
+
+  struct Pixel {
+    int u, v;
+    Eigen::Vector3f sight;         ///< direction through its centre, world frame, depth 1
+    Eigen::Vector3f per_u, per_v;  ///< how the direction changes per pixel
+    float brightness;              ///< what vignetting leaves
+    const LightSample* light;      ///< one for each of its samples
+  };
+  std::vector<Pixel> pixels;           ///< tile by tile
+  std::vector<Eigen::Vector3f> light;  ///< linear, summed over the samples of each
+  std::unique_ptr<RayBlock> block;
+};
+
+/// Paints bands of four pixel rows, of which a picture has `band_count()`. The samples of a band
+/// are traced in blocks of fixed size, pixel by pixel and tile by tile: with 16 samples, a packet
+/// of rays is one pixel, with one sample a tile of 4 × 4. Thread-safe; refers to its arguments.
+class ColorPainter {
+ public:
+  ColorPainter(const SimulatedScene& scene, const Lighting& lighting, const PinholeCamera& camera,
+               const ColorSensor& sensor, std::uint64_t seed);
+
+  std::size_t band_count() const;
+  void paint(std::size_t band, BandScratch& scratch, ColorImage& image) const;
+
+ private:
+  void list_pixels(int top, BandScratch& scratch) const;
+  BandScratch::Pixel sight_of(int u, int v, Eigen::Vector2d& guess) const;
+  void trace(std::size_t first_ray, std::size_t last_ray, BandScratch& scratch) const;
+  void find_surfaces(std::size_t first_ray, BandScratch& scratch) const;
+  void add_sky(RayBlock& block) const;
+  void add_lamp(RayBlock& block) const;
+  void develop(const BandScratch& scratch, ColorImage& image) const;
+
+  const Scene& rays_;
+  const Lighting& lighting_;
+  const PinholeCamera& camera_;
+  const ColorSensor& sensor_;
+  std::uint64_t seed_;
+  SampleTable samples_;
+  SurfaceColors colors_;
+  Lamp lamp_;
+  std::optional<Lens> lens_;    ///< nothing: pixels are where the pinhole has them
+  Eigen::Vector3f background_;  ///< linear
+};
+
+}  // namespace vantage

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstddef>
+
+#include "simulator/color_sensor.hpp"
+#include "vantage/raycore/points.hpp"
+
+namespace vantage {
+
+/// The lamp of a `Lighting` as a square in the world.
+class Lamp {
+ public:
+  explicit Lamp(const Lighting& lighting);
+
+  /// A point of the square: its centre at (0, 0), its corners at ±0.5.
+  Eigen::Vector3f at(float x, float y) const { return centre_ + x * side_x_ + y * side_y_; }
+
+  /// Where it shines to; unit length.
+  const Eigen::Vector3f& facing() const { return facing_; }
+
+  /// Light of the lamp on N surfaces if nothing is in between: the integral of cos·cos'/r² over the
+  /// square by 2 × 2 Gaussian points, `exposure * lamp_share` at the target.
+  void unshadowed(PointsView position, PointsView normal, float* light) const;
+
+ private:
+  Eigen::Vector3f centre_, facing_, side_x_, side_y_;
+  std::array<Eigen::Vector3f, 4> gaussian_;
+  float scale_ = 1;
+};
+
+}  // namespace vantage
