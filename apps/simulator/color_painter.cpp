@@ -10,13 +10,7 @@ namespace {
 
 constexpr int kTileSide = 4;
 
-// Keeps shadow rays off the surface that they start on, as a part of the distance to the camera.
-constexpr float kLift = 1e-4f, kLeastDistance = 0.1f;
-
 }  // namespace
-
-BandScratch::BandScratch() : block(std::make_unique<RayBlock>()) {}
-BandScratch::~BandScratch() = default;
 
 ColorPainter::ColorPainter(const SimulatedScene& scene, const Lighting& lighting,
                            const PinholeCamera& camera, const ColorSensor& sensor,
@@ -40,10 +34,18 @@ std::size_t ColorPainter::band_count() const {
 void ColorPainter::paint(std::size_t band, BandScratch& scratch, ColorImage& image) const {
   list_pixels(int(band) * kTileSide, scratch);
   scratch.light.assign(scratch.pixels.size(), Eigen::Vector3f::Zero());
-  const std::size_t rays = scratch.pixels.size() * samples_.samples_per_pixel();
-  for (std::size_t first = 0; first < rays; first += kBlockRays) {
-    trace(first, std::min(first + kBlockRays, rays), scratch);
+  RayBlock& block = scratch.block;
+  block.rays = 0;
+  for (std::uint32_t pixel = 0; pixel < scratch.pixels.size(); ++pixel) {
+    for (std::size_t first = 0; first < samples_.samples_per_pixel();) {
+      const std::size_t last =
+          std::min(samples_.samples_per_pixel(), first + kBlockRays - block.rays);
+      add_rays(block, pixel, scratch.pixels[pixel].rays, samples_, first, last);
+      if (block.rays == kBlockRays) trace(scratch);
+      first = last;
+    }
   }
+  if (block.rays > 0) trace(scratch);
   develop(scratch, image);
 }
 
@@ -74,57 +76,39 @@ BandScratch::Pixel ColorPainter::sight_of(int u, int v, Eigen::Vector2d& guess) 
   const Eigen::Matrix3d& rotation = camera_.T_world_cam().rotation();
   const Eigen::Matrix<double, 3, 2> per_pixel = rotation.leftCols<2>() * sight.per_pixel;
   const double cos2 = 1 / (1 + sight.xy.squaredNorm());
+  const auto number = std::uint64_t(v) * std::uint64_t(k.width) + std::uint64_t(u);
   return {u,
           v,
-          (rotation * sight.xy.homogeneous()).cast<float>(),
-          per_pixel.col(0).cast<float>(),
-          per_pixel.col(1).cast<float>(),
-          float(1 - (1 - cos2 * cos2) * sensor_.vignetting),
-          samples_.light_of_pixel(std::uint64_t(v) * std::uint64_t(k.width) + std::uint64_t(u))};
+          {(rotation * sight.xy.homogeneous()).cast<float>(), per_pixel.col(0).cast<float>(),
+           per_pixel.col(1).cast<float>(), samples_.of_pixel(number)},
+          float(1 - (1 - cos2 * cos2) * sensor_.vignetting)};
 }
 
-void ColorPainter::trace(std::size_t first_ray, std::size_t last_ray, BandScratch& scratch) const {
-  RayBlock& block = *scratch.block;
-  const std::size_t samples = samples_.samples_per_pixel();
-  block.rays = last_ray - first_ray;
-  for (std::size_t i = 0; i < block.rays; ++i) {
-    const BandScratch::Pixel& pixel = scratch.pixels[(first_ray + i) / samples];
-    const SquarePoint& at = samples_.position((first_ray + i) % samples);
-    block.direction.set(i, pixel.sight + at.x * pixel.per_u + at.y * pixel.per_v);
-  }
-  rays_.closest_hits(camera_.centre().cast<float>(), block.direction.view(block.rays), block.hits,
-                     RayOrder::coherent);
-  find_surfaces(first_ray, scratch);
-  if (block.surfaces == 0) return;
-  add_sky(block);
-  add_lamp(block);
-  for (std::size_t s = 0; s < block.surfaces; ++s) {
-    scratch.light[block.pixel[s]] += block.light[s] * block.color[s];
-  }
-}
-
-void ColorPainter::find_surfaces(std::size_t first_ray, BandScratch& scratch) const {
-  RayBlock& block = *scratch.block;
+/// Traces the block's rays, adds their light to their pixels, and empties the block.
+void ColorPainter::trace(BandScratch& scratch) const {
+  RayBlock& block = scratch.block;
   const Eigen::Vector3f centre = camera_.centre().cast<float>();
-  const std::size_t samples = samples_.samples_per_pixel();
-  block.surfaces = 0;
+  rays_.closest_hits(centre, block.direction.view(block.rays), block.hits, RayOrder::coherent);
+  find_surfaces(block, centre);
+  if (block.surfaces < block.rays) add_background(scratch);
+  if (block.surfaces > 0) {
+    add_sky(block);
+    add_lamp(block);
+  }
+  const Hits& hits = block.hits;
+  for (std::size_t s = 0; s < block.surfaces; ++s) {
+    const std::size_t i = block.ray[s];
+    scratch.light[block.pixel[i]] +=
+        (block.sky_light[s] + block.lamp_light[s]) *
+        colors_.at(hits.object[i], hits.triangle[i], hits.u[i], hits.v[i]);
+  }
+  block.rays = 0;
+}
+
+void ColorPainter::add_background(BandScratch& scratch) const {
+  const RayBlock& block = scratch.block;
   for (std::size_t i = 0; i < block.rays; ++i) {
-    const std::size_t pixel = (first_ray + i) / samples;
-    if (!block.hits.hit(i)) {
-      scratch.light[pixel] += background_;
-      continue;
-    }
-    const Eigen::Vector3f direction = block.direction[i];
-    Eigen::Vector3f normal = block.hits.normal[i];
-    if (normal.dot(direction) > 0) normal = -normal;
-    const float t = block.hits.t[i];
-    const std::size_t s = block.surfaces++;
-    block.pixel[s] = std::uint32_t(pixel);
-    block.sample[s] = scratch.pixels[pixel].light[(first_ray + i) % samples];
-    block.color[s] =
-        colors_.at(block.hits.object[i], block.hits.triangle[i], block.hits.u[i], block.hits.v[i]);
-    block.normal.set(s, normal);
-    block.from.set(s, centre + t * direction + kLift * std::max(kLeastDistance, t) * normal);
+    if (!block.hits.hit(i)) scratch.light[block.pixel[i]] += background_;
   }
 }
 
@@ -134,19 +118,18 @@ void ColorPainter::add_sky(RayBlock& block) const {
                  {block.hidden, block.surfaces}, RayOrder::incoherent);
   const float open = lighting_.exposure * (1 - lighting_.lamp_share);
   const float light[] = {open, open * lighting_.bounce};
-  for (std::size_t s = 0; s < block.surfaces; ++s) block.light[s] = light[block.hidden[s]];
+  for (std::size_t s = 0; s < block.surfaces; ++s) block.sky_light[s] = light[block.hidden[s]];
 }
 
 void ColorPainter::add_lamp(RayBlock& block) const {
   lamp_.unshadowed(block.from.view(block.surfaces), block.normal.view(block.surfaces),
                    block.lamp_light);
-  const std::size_t count = aim_at_lamp(block, lamp_);
-  rays_.occluded(block.lamp_from.view(count), block.to.view(count), {block.hidden, count},
-                 RayOrder::coherent);
-  for (std::size_t i = 0; i < count; ++i) {
-    if (block.hidden[i]) block.lamp_light[block.lit[i]] = 0;
+  aim_at_lamp(block, lamp_);
+  rays_.occluded(block.lit_from.view(block.lit), block.lit_to.view(block.lit),
+                 {block.hidden, block.lit}, RayOrder::coherent);
+  for (std::size_t i = 0; i < block.lit; ++i) {
+    if (block.hidden[i]) block.lamp_light[block.lit_surface[i]] = 0;
   }
-  for (std::size_t s = 0; s < block.surfaces; ++s) block.light[s] += block.lamp_light[s];
 }
 
 /// From the sums of linear light to what the sensor puts out.

@@ -1,34 +1,27 @@
 #pragma once
 
-#include <memory>
 #include <optional>
 #include <vector>
 
 #include "simulator/color_sensor.hpp"
 #include "simulator/lamp.hpp"
 #include "simulator/lens.hpp"
+#include "simulator/ray_block.hpp"
 #include "simulator/sample_table.hpp"
 #include "simulator/surface_color.hpp"
 
 namespace vantage {
 
-struct RayBlock;
-
 /// Room to paint a band in. A task keeps one for all of its bands.
 struct BandScratch {
-  BandScratch();
-  ~BandScratch();
-
   struct Pixel {
     int u, v;
-    Eigen::Vector3f sight;         ///< direction through its centre, world frame, depth 1
-    Eigen::Vector3f per_u, per_v;  ///< how the direction changes per pixel
-    float brightness;              ///< what vignetting leaves
-    const LightSample* light;      ///< one for each of its samples
+    PixelRays rays;
+    float brightness;  ///< what vignetting leaves
   };
   std::vector<Pixel> pixels;           ///< tile by tile
   std::vector<Eigen::Vector3f> light;  ///< linear, summed over the samples of each
-  std::unique_ptr<RayBlock> block;
+  RayBlock block;
 };
 
 /// Paints bands of four pixel rows, of which a picture has `band_count()`. The samples of a band
@@ -45,8 +38,8 @@ class ColorPainter {
  private:
   void list_pixels(int top, BandScratch& scratch) const;
   BandScratch::Pixel sight_of(int u, int v, Eigen::Vector2d& guess) const;
-  void trace(std::size_t first_ray, std::size_t last_ray, BandScratch& scratch) const;
-  void find_surfaces(std::size_t first_ray, BandScratch& scratch) const;
+  void trace(BandScratch& scratch) const;
+  void add_background(BandScratch& scratch) const;
   void add_sky(RayBlock& block) const;
   void add_lamp(RayBlock& block) const;
   void develop(const BandScratch& scratch, ColorImage& image) const;

@@ -4,8 +4,7 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
-#include <cmath>
-#include <string>
+#include <memory>
 
 #include "simulator/color_painter.hpp"
 #include "vantage/raycore/error.hpp"
@@ -64,10 +63,10 @@ std::optional<ColorImage> simulate_color(const SimulatedScene& scene, const Ligh
   const std::size_t bands = painter.band_count();
   stop.expect(bands);
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, bands), [&](const auto& part) {
-    BandScratch scratch;
+    const auto scratch = std::make_unique<BandScratch>();  // large: not for the stack
     for (std::size_t band = part.begin(); band < part.end(); ++band) {
       if (stop.stop_requested()) return;
-      painter.paint(band, scratch, image);
+      painter.paint(band, *scratch, image);
       stop.advance(1);
     }
   });

@@ -16,6 +16,9 @@ class Lamp {
 
   /// A point of the square: its centre at (0, 0), its corners at ±0.5.
   Eigen::Vector3f at(float x, float y) const { return centre_ + x * side_x_ + y * side_y_; }
+  const Eigen::Vector3f& centre() const { return centre_; }
+  const Eigen::Vector3f& side_x() const { return side_x_; }
+  const Eigen::Vector3f& side_y() const { return side_y_; }
 
   /// Where it shines to; unit length.
   const Eigen::Vector3f& facing() const { return facing_; }

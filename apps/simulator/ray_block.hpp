@@ -11,9 +11,9 @@
 
 namespace vantage {
 
-/// Rays that are traced together: as many as a `Scene` traces without spreading them over tasks,
-/// and few enough to stay in the processor's cache.
-inline constexpr std::size_t kBlockRays = 1024;
+/// Rays that are traced together: no more than a `Scene` traces without spreading them over tasks,
+/// and few enough that all of their arrays stay in the processor's cache.
+inline constexpr std::size_t kBlockRays = 512;
 
 /// Room for a block of points or directions.
 struct BlockPoints {
@@ -24,34 +24,49 @@ struct BlockPoints {
   Eigen::Vector3f operator[](std::size_t i) const { return {x[i], y[i], z[i]}; }
 };
 
-/// A block of rays from the camera, and the surfaces that they have met: flat arrays.
+/// A block of rays from the camera, and the surfaces that they have met: flat arrays, for the
+/// kernels below.
 struct RayBlock {
   std::size_t rays = 0;
+  std::uint32_t pixel[kBlockRays];  ///< of the band
   BlockPoints direction;
+  float lamp_x[kBlockRays], lamp_y[kBlockRays];  ///< as in LightSamples
+  BlockPoints sky;
   Hits hits;
 
   std::size_t surfaces = 0;
-  std::uint32_t pixel[kBlockRays];  ///< of the band
-  LightSample sample[kBlockRays];
-  Eigen::Vector3f color[kBlockRays];  ///< linear
-  BlockPoints normal;                 ///< on the camera's side
-  BlockPoints from;                   ///< where shadow rays start: a little above the surface
-  float light[kBlockRays];            ///< on the surface
-  float lamp_light[kBlockRays];       ///< of the lamp alone
+  std::uint32_t ray[kBlockRays];  ///< that met the surface, in increasing order
+  BlockPoints normal;             ///< on the camera's side
+  BlockPoints from;               ///< where shadow rays start: a little above the surface
+  float sky_light[kBlockRays], lamp_light[kBlockRays];
 
   BlockPoints to;  ///< where shadow rays end
   std::uint8_t hidden[kBlockRays];
 
-  std::uint32_t lit[kBlockRays];  ///< surfaces that get light from the lamp unless it is hidden
-  BlockPoints lamp_from;
+  std::size_t lit = 0;  ///< surfaces that have light of the lamp if nothing hides it
+  std::uint32_t lit_surface[kBlockRays];  ///< these
+  BlockPoints lit_from, lit_to;
 };
+
+/// What a pixel's rays have in common.
+struct PixelRays {
+  Eigen::Vector3f sight;         ///< direction through its centre, world frame, depth 1
+  Eigen::Vector3f per_u, per_v;  ///< how the direction changes per pixel
+  LightSamples light;
+};
+
+/// Appends the samples `first` to `last` of a pixel as rays.
+void add_rays(RayBlock& block, std::uint32_t pixel, const PixelRays& rays,
+              const SampleTable& samples, std::size_t first, std::size_t last);
+
+/// Lists the surfaces that `hits` has met, with their normals and where their shadow rays start.
+void find_surfaces(RayBlock& block, const Eigen::Vector3f& camera_centre);
 
 /// Fills `to` with the point in each surface's sky direction, `reach_m` away.
 void aim_at_sky(RayBlock& block, float reach_m);
 
-/// Fills `lit`, `lamp_from` and `to` for the surfaces that have `lamp_light` and see their point of
-/// the lamp above their horizon; the light leaves out what is below.
-/// @returns how many these are.
-std::size_t aim_at_lamp(RayBlock& block, const Lamp& lamp);
+/// Fills `lit` and what follows for the surfaces that have `lamp_light` and whose point on the lamp
+/// is above their horizon: the light leaves out what is below.
+void aim_at_lamp(RayBlock& block, const Lamp& lamp);
 
 }  // namespace vantage

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -17,10 +18,10 @@ struct SquarePoint {
   float x, y;
 };
 
-/// What one sample of a pixel looks at besides the surface itself.
-struct LightSample {
-  SquarePoint lamp;           ///< on the lamp, in units of its sides
-  float sky_x, sky_y, sky_z;  ///< unit vector, density cos/π around z = the surface's normal
+/// What the samples of a pixel look at besides the surface itself: one array per coordinate.
+struct LightSamples {
+  const float *lamp_x, *lamp_y;        ///< on the lamp, in units of its sides, -0.5 to 0.5
+  const float *sky_x, *sky_y, *sky_z;  ///< unit vectors, density cos/π around z = the normal
 };
 
 /// The samples of a picture. All pixels are sampled at the same positions, so that edges are clean;
@@ -33,19 +34,25 @@ class SampleTable {
       : samples_(std::size_t(samples_per_pixel)),
         patterns_(std::max<std::size_t>(16, 4096 / samples_)),
         seed_(seed) {
-    for (std::size_t s = 0; s < samples_; ++s) position_.push_back(lattice(s));
-    light_.resize(patterns_ * samples_);
+    for (std::size_t s = 0; s < samples_; ++s) {
+      const SquarePoint p = lattice(s);
+      position_x_.push_back(p.x), position_y_.push_back(p.y);
+    }
+    for (std::vector<float>& numbers : light_) numbers.resize(patterns_ * samples_);
     for (std::size_t p = 0; p < patterns_; ++p) fill(p);
   }
 
   std::size_t samples_per_pixel() const { return samples_; }
 
-  /// Where in its pixel a sample lies, from the centre; one sample lies at the centre.
-  const SquarePoint& position(std::size_t sample) const { return position_[sample]; }
+  /// Where in its pixel each sample lies, pixels from the centre; a single one lies there.
+  const float* position_x() const { return position_x_.data(); }
+  const float* position_y() const { return position_y_.data(); }
 
-  /// The `samples_per_pixel()` light samples of a pixel, numbered in reading order.
-  const LightSample* light_of_pixel(std::uint64_t pixel) const {
-    return light_.data() + sample_hash(seed_, kPatterns, pixel) % patterns_ * samples_;
+  /// The `samples_per_pixel()` light samples of a pixel, whose number counts in reading order.
+  LightSamples of_pixel(std::uint64_t pixel) const {
+    const std::size_t first = sample_hash(seed_, kPatterns, pixel) % patterns_ * samples_;
+    return {light_[0].data() + first, light_[1].data() + first, light_[2].data() + first,
+            light_[3].data() + first, light_[4].data() + first};
   }
 
  private:
@@ -77,16 +84,16 @@ class SampleTable {
     for (std::size_t s = 0; s < samples_; ++s) {
       const double angle = 2 * std::numbers::pi * (sky[s].x + 0.5), squared = sky[s].y + 0.5;
       const double radius = std::sqrt(squared);
-      light_[pattern * samples_ + s] = {lamp[s], float(radius * std::cos(angle)),
-                                        float(radius * std::sin(angle)),
-                                        float(std::sqrt(std::max(1e-6, 1 - squared)))};
+      const double numbers[] = {lamp[s].x, lamp[s].y, radius * std::cos(angle),
+                                radius * std::sin(angle), std::sqrt(std::max(1e-6, 1 - squared))};
+      for (int i = 0; i < 5; ++i) light_[i][pattern * samples_ + s] = float(numbers[i]);
     }
   }
 
   std::size_t samples_, patterns_;
   std::uint64_t seed_;
-  std::vector<SquarePoint> position_;
-  std::vector<LightSample> light_;  ///< pattern by pattern
+  std::vector<float> position_x_, position_y_;
+  std::array<std::vector<float>, 5> light_;  ///< as in LightSamples, pattern by pattern
 };
 
 }  // namespace vantage
