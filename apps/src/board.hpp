@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "document_value.hpp"
+#include "object_types.hpp"
 #include "simulator/marker.hpp"
 
 namespace vantage {
@@ -15,15 +16,16 @@ struct Board {
   Eigen::Vector2d size_m;
   double thickness_m = 0.01;
   Eigen::Vector3f color = {0.9f, 0.9f, 0.9f};  ///< sRGB, 0 to 1
-  std::vector<Marker> markers;                 ///< their poses are T_world_marker
+  std::vector<Marker> markers = {};            ///< their poses are T_world_marker
 };
 
 /// Reads a board, or the file that `value` names instead, relative to `folder`; adds that file to
 /// `files`.
 /// @throws Error bad_input with file, line and key for what is not as the schema of the workcell
-/// has it, an id that is there twice, and a marker that is not on the board or on another one.
-Board read_board(const Value& value, const std::filesystem::path& folder,
-                 std::vector<std::filesystem::path>& files);
+/// has it, a marker that OpenCV does not have, one that is there twice or that a type of the
+/// knowledge base has, and one that is not on the board or on another one.
+Board read_board(const Value& value, const KnowledgeBase& knowledge,
+                 const std::filesystem::path& folder, std::vector<std::filesystem::path>& files);
 
 /// The plate with its markers printed on it, world frame.
 /// @throws Error bad_input as `with_markers` does.

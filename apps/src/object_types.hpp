@@ -27,10 +27,10 @@ struct Symmetries {
 /// What the knowledge base says of a kind of object.
 struct ObjectType {
   std::string name;
-  std::vector<std::string> is_a;              ///< ancestors; need not be types of their own
-  std::shared_ptr<const TexturedMesh> shape;  ///< never null; its markers are printed on it
-  std::vector<Marker> markers;                ///< the features that cameras recognise
-  Symmetries symmetries;
+  std::vector<std::string> is_a = {};              ///< ancestors; need not be types of their own
+  std::shared_ptr<const TexturedMesh> shape = {};  ///< never null; its markers are printed on it
+  std::vector<Marker> markers = {};                ///< the features that cameras recognise
+  Symmetries symmetries = {};
 };
 
 /// The types of one or several knowledge base files, in their order. Immutable.

@@ -67,9 +67,10 @@ PlanInput load_plan_input(const PlanOptions& options) {
   }
   const BopScene scene = load_bop_scene(options.dataset, workcell.sensor_range, options.images);
 
-  PlanInput input{{workcell.known_objects, workcell.static_structures, observers_of(scene)},
-                  request_of(workcell, options, scene.images.front().camera.intrinsics()),
-                  {}};
+  PlanInput input{
+      {known(workcell.known_objects), known(workcell.static_structures), observers_of(scene)},
+      request_of(workcell, options, scene.images.front().camera.intrinsics()),
+      {}};
   input.record.inputs = workcell.files;
   input.record.inputs.insert(input.record.inputs.end(), scene.files.begin(), scene.files.end());
   input.record.config = {

@@ -13,7 +13,7 @@ struct Workcell;
 /// Objects that are to lie around at random.
 struct RandomObjects {
   int count = 0;
-  std::vector<std::shared_ptr<const ObjectType>> types;  ///< taken in turns
+  std::vector<std::shared_ptr<const ObjectType>> types = {};  ///< taken in turns
   std::uint64_t seed = 0;
   double upright_share = 0;  ///< 0 to 1: how many stand as their type usually does
 };

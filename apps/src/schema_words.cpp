@@ -55,13 +55,15 @@ std::string array_in_words(const json& root, const json& schema) {
                      limits_in_words(items));
 }
 
-/// For the pattern `"oneOf": [{"required": ["box"]}, {"required": ["mesh"]}]`.
+/// For the pattern `"oneOf": [{"required": ["box"]}, {"required": ["mesh", "unit_m"]}]`.
 std::string choices_in_words(const json& schema) {
-  std::vector<std::string> keys;
+  std::vector<std::string> choices;
   for (const json& choice : schema["oneOf"]) {
+    std::vector<std::string> keys;
     for (const json& key : choice.value("required", json::array())) keys.push_back(key.dump());
+    choices.push_back(fmt::format("{}", fmt::join(keys, " with ")));
   }
-  return fmt::format("exactly one of the keys {}", fmt::join(keys, ", "));
+  return fmt::format("exactly one of the keys {}", fmt::join(choices, ", "));
 }
 
 std::size_t edit_distance(const std::string& a, const std::string& b) {

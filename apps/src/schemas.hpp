@@ -6,6 +6,7 @@ namespace vantage {
 
 /// The files of assets/schema, compiled in: the binary needs no folder beside it.
 const nlohmann::json& workcell_schema();
+const nlohmann::json& knowledge_schema();
 const nlohmann::json& plan_schema();
 
 }  // namespace vantage

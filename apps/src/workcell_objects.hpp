@@ -13,9 +13,9 @@ namespace vantage {
 
 /// What the workcell file puts somewhere.
 struct PlacedObject {
-  std::string name;                           ///< unique in the workcell
-  std::shared_ptr<const TexturedMesh> shape;  ///< never null; shared by all objects of a type
-  Pose T_world_object;
+  std::string name;                                ///< unique in the workcell
+  std::shared_ptr<const TexturedMesh> shape = {};  ///< never null; shared by all objects of a type
+  Pose T_world_object = {};
   std::shared_ptr<const ObjectType> type = {};  ///< null: of no type of the knowledge base
 
   /// As planner and volume see it; shares the mesh.
