@@ -20,6 +20,7 @@ Workcell workcell_of(const PlanOptions& options) {
   }
   if (options.workcell.empty()) return {.work_area = area.value()};
   Workcell workcell = load_workcell(options.workcell);
+  place_random_objects(workcell);
   if (area) workcell.work_area = *area;
   return workcell;
 }
