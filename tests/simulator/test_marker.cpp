@@ -60,7 +60,7 @@ TEST_CASE("OpenCV finds the markers of every dictionary by their cells") {
       const float low = 15.5f, high = low + 8 * float(cells.side);
       const std::array<cv::Point2f, 4> truth = {
           {{low, low}, {high, low}, {high, high}, {low, high}}};
-      for (std::size_t i = 0; i < 4; ++i) CHECK(cv::norm(found[0].corners[i] - truth[i]) < 0.1);
+      for (std::size_t i = 0; i < 4; ++i) CHECK(cv::norm(found[0].corners[i] - truth[i]) < 0.02);
     }
   }
 }
