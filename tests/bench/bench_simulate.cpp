@@ -11,6 +11,7 @@
 #include "bare_embree.hpp"
 #include "simulator/color_sensor.hpp"
 #include "simulator/depth_sensor.hpp"
+#include "simulator/normal_noise.hpp"
 #include "timing.hpp"
 #include "workload.hpp"
 
@@ -68,12 +69,12 @@ Workload first_rays(const Setting& s) {
   return work;
 }
 
-/// From all that the packets of 16 rays met, where they met anything, to another device of the
-/// camera.
-Workload second_rays(const Setting& s, const Workload& first, double offset_m) {
-  Workload work{"second", &s.meshes, {}, {}, {}, true, false, true};
-  const Eigen::Vector3f end =
-      (s.camera.centre() + offset_m * s.camera.T_world_cam().rotation().col(0)).cast<float>();
+/// From all that the packets of 16 rays met, where they met anything, to `end_of(point, normal,
+/// i)`.
+template <class EndOf>
+Workload second_rays(const Setting& s, const Workload& first, bool one_end, const EndOf& end_of) {
+  // Rays to one point stay together; those that scatter do better without the flag.
+  Workload work{"second", &s.meshes, {}, {}, {}, one_end, false, one_end};
   Hits hits;
   s.scene.rays().closest_hits(first.origins[0], first.directions, hits);
   const auto any_hit = [&](std::size_t packet) {
@@ -85,8 +86,9 @@ Workload second_rays(const Setting& s, const Workload& first, double offset_m) {
   for (std::size_t i = 0; i < first.size(); ++i) {
     if (!any_hit(i / 16)) continue;
     const float t = hits.hit(i) ? hits.t[i] : 3.0f;
-    const Eigen::Vector3f from =
-        first.origins[i] + t * first.directions[i] + 1e-4f * hits.normal[i];
+    const Eigen::Vector3f normal = hits.normal[i];
+    const Eigen::Vector3f from = first.origins[i] + t * first.directions[i] + 1e-4f * normal;
+    const Eigen::Vector3f end = end_of(from, normal, i);
     work.origins.push_back(from);
     work.directions.push_back(end - from);
     work.ends.push_back(end);
@@ -94,7 +96,39 @@ Workload second_rays(const Setting& s, const Workload& first, double offset_m) {
   return work;
 }
 
-/// A part of a depth image's rays by Embree alone, again and again: prepared packets that stay in
+/// To another device of the camera.
+Workload device_rays(const Setting& s, const Workload& first, double offset_m) {
+  const Eigen::Vector3f end =
+      (s.camera.centre() + offset_m * s.camera.T_world_cam().rotation().col(0)).cast<float>();
+  return second_rays(s, first, true, [&](const auto&, const auto&, std::size_t) { return end; });
+}
+
+Eigen::Vector3f random_vector(std::uint64_t key) {
+  Eigen::Vector3f v;
+  for (int i = 0; i < 3; ++i) {
+    v[i] = detail::signed_unit(std::uint32_t(detail::hash64(3 * key + std::uint64_t(i))));
+  }
+  return v;
+}
+
+/// To points all over the lamp.
+Workload lamp_rays(const Setting& s, const Workload& first) {
+  const Lighting light;
+  return second_rays(s, first, false, [&](const auto&, const auto&, std::size_t i) {
+    return Eigen::Vector3f(light.lamp_centre_m + 0.4f * light.lamp_side_m * random_vector(i));
+  });
+}
+
+/// Over the half-space in front of the surface, as far as the sky's light is looked for.
+Workload sky_rays(const Setting& s, const Workload& first) {
+  const float reach = Lighting().sky_reach_m;
+  return second_rays(s, first, false, [&](const auto& from, const auto& normal, std::size_t i) {
+    return Eigen::Vector3f(from +
+                           reach * (random_vector(i).normalized() + 1.001f * normal).normalized());
+  });
+}
+
+/// A part of an image's rays by Embree alone, again and again: prepared packets that stay in
 /// the cache, so that Embree does not wait for memory. What it takes for all of them follows.
 class BarePart {
  public:
@@ -105,10 +139,10 @@ class BarePart {
 
   double seconds_of_all(const BareScene& scene) {
     const double seconds = thread_seconds([&] {
-      if (work_.one_end) {
-        bare_.occluded16(scene, blocked_.data(), true);
+      if (!work_.one_origin) {
+        bare_.occluded16(scene, blocked_.data(), work_.coherent);
       } else {
-        bare_.intersect16(scene, hits_, true);
+        bare_.intersect16(scene, hits_, work_.coherent);
       }
     });
     return seconds * double(rays_) / double(work_.size());
@@ -141,32 +175,61 @@ void depth_frames(benchmark::State& state, const Setting& s, const StereoSensor&
   });
 }
 
-void depth_against_bare(benchmark::State& state, const Setting& s) {
-  const Workload first = first_rays(s);
-  const StereoSensor sensor;
-  BarePart pixels(first), imager(second_rays(s, first, sensor.noise.baseline_m)),
-      projector(second_rays(s, first, sensor.projector_m));
+void color_frames(benchmark::State& state, const Setting& s, int threads) {
+  std::uint64_t seed = 0;
+  frames(state, threads,
+         [&] { benchmark::DoNotOptimize(simulate_color(s.scene, {}, s.camera, {}, seed++)); });
+}
+
+/// Our frame against all of its rays by Embree alone, `repeats` times each part, in turns on one
+/// thread.
+void against_bare(benchmark::State& state, const Setting& s, std::vector<BarePart> parts,
+                  int repeats, const Work& ours) {
   const auto bare_seconds = [&] {
-    return pixels.seconds_of_all(s.bare) + imager.seconds_of_all(s.bare) +
-           projector.seconds_of_all(s.bare);
+    double seconds = 0;
+    for (BarePart& part : parts) seconds += repeats * part.seconds_of_all(s.bare);
+    return seconds;
   };
-  std::vector<double> parts;
+  std::vector<double> rates;
   tbb::task_arena one(1);
   one.execute([&] {
-    std::uint64_t seed = 0;
-    const Work ours = [&] {
-      benchmark::DoNotOptimize(simulate_depth(s.scene.rays(), s.camera, sensor, seed++));
-    };
     ours(), bare_seconds();
     for (auto _ : state) {
       const double own = thread_seconds(ours);
-      parts.push_back(bare_seconds() / own);
+      rates.push_back(bare_seconds() / own);
       state.SetIterationTime(own);
     }
   });
-  state.SetItemsProcessed(state.iterations() *
-                          std::int64_t(pixels.rays() + imager.rays() + projector.rays()));
-  state.counters["part_of_bare_rate"] = median(parts);
+  std::size_t rays = 0;
+  for (const BarePart& part : parts) rays += std::size_t(repeats) * part.rays();
+  state.SetItemsProcessed(state.iterations() * std::int64_t(rays));
+  state.counters["part_of_bare_rate"] = median(rates);
+}
+
+void depth_against_bare(benchmark::State& state, const Setting& s) {
+  const Workload first = first_rays(s);
+  const StereoSensor sensor;
+  std::vector<BarePart> parts;
+  parts.emplace_back(first);
+  parts.emplace_back(device_rays(s, first, sensor.noise.baseline_m));
+  parts.emplace_back(device_rays(s, first, sensor.projector_m));
+  std::uint64_t seed = 0;
+  against_bare(state, s, std::move(parts), 1, [&] {
+    benchmark::DoNotOptimize(simulate_depth(s.scene.rays(), s.camera, sensor, seed++));
+  });
+}
+
+void color_against_bare(benchmark::State& state, const Setting& s) {
+  const Workload first = first_rays(s);
+  const ColorSensor sensor;
+  std::vector<BarePart> parts;
+  parts.emplace_back(first);
+  parts.emplace_back(lamp_rays(s, first));
+  parts.emplace_back(sky_rays(s, first));
+  std::uint64_t seed = 0;
+  against_bare(state, s, std::move(parts), sensor.samples_per_pixel, [&] {
+    benchmark::DoNotOptimize(simulate_color(s.scene, {}, s.camera, sensor, seed++));
+  });
 }
 
 }  // namespace
@@ -187,6 +250,10 @@ int main(int argc, char** argv) {
       [&](benchmark::State& state) { depth_frames(state, setting, exact, 2); });
   add("depth 640x480, D435, 1 thread against bare Embree",
       [&](benchmark::State& state) { depth_against_bare(state, setting); });
+  add("color 640x480, 16 samples, 2 threads",
+      [&](benchmark::State& state) { color_frames(state, setting, 2); });
+  add("color 640x480, 16 samples, 1 thread against bare Embree",
+      [&](benchmark::State& state) { color_against_bare(state, setting); });
   benchmark::RunSpecifiedBenchmarks();
   benchmark::Shutdown();
 }
