@@ -16,7 +16,7 @@ foreach(module IN LISTS modules)
   get_target_property(source_dir ${module} SOURCE_DIR)
   install(DIRECTORY "${source_dir}/include/vantage" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}")
 endforeach()
-install(DIRECTORY assets/schema assets/workcells DESTINATION "${CMAKE_INSTALL_DATADIR}/vantage")
+install(DIRECTORY assets/schema assets/workcells assets/knowledge DESTINATION "${CMAKE_INSTALL_DATADIR}/vantage")
 install(FILES LICENSE DESTINATION "${CMAKE_INSTALL_DOCDIR}")
 
 install(EXPORT vantageTargets NAMESPACE vantage:: DESTINATION "${package_dir}")

@@ -1,8 +1,6 @@
 #include "board.hpp"
 
-#include <fmt/format.h>
-
-#include <cmath>
+#include <Eigen/Geometry>
 
 #include "marker_reader.hpp"
 #include "schema_check.hpp"
@@ -16,32 +14,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kTolerance = 1e-9;  // of lengths that touch in decimal, but not in binary
-
-/// The axes of a marker's edges and their signs, for the test of whether two squares overlap.
-Eigen::Matrix2d edges_of(const Marker& marker) {
-  return marker.T_object_marker.rotation().topLeftCorner<2, 2>();
-}
-
-/// Half of how far the square reaches along a direction.
-double reach_along(const Marker& marker, const Eigen::Vector2d& direction) {
-  return 0.5 * marker.size_m * (edges_of(marker).transpose() * direction).lpNorm<1>();
-}
-
-/// Two squares are apart if they are along one of their edges (separating axes).
-bool overlap(const Marker& a, const Marker& b) {
-  const Eigen::Vector2d apart =
-      (b.T_object_marker.translation() - a.T_object_marker.translation()).head<2>();
-  for (const Marker* of : {&a, &b}) {
-    for (int edge = 0; edge < 2; ++edge) {
-      const Eigen::Vector2d axis = edges_of(*of).col(edge);
-      const double reach = reach_along(a, axis) + reach_along(b, axis);
-      if (std::abs(apart.dot(axis)) > reach - kTolerance) return false;
-    }
-  }
-  return true;
-}
-
 Marker read_board_marker(const Value& value, const Value& dictionary) {
   check_marker(dictionary, value["id"]);
   const double turn = value.get("turn", 0.0);
@@ -51,32 +23,14 @@ Marker read_board_marker(const Value& value, const Value& dictionary) {
                               {at.number(0), at.number(1), 0}, value.place())};
 }
 
-/// @throws Error bad_input unless the marker is on the board, and on no other marker.
-void check_room(const Board& board, const Marker& marker, const Value& value) {
-  for (int axis = 0; axis < 2; ++axis) {
-    const double end = std::abs(marker.T_object_marker.translation()[axis]) +
-                       reach_along(marker, Eigen::Vector2d::Unit(axis));
-    if (end > 0.5 * board.size_m[axis] + kTolerance) {
-      throw value["at_m"].error(
-          fmt::format("marker {} ends {} m from the middle, but the board {} m", marker.id, end,
-                      0.5 * board.size_m[axis]));
-    }
-  }
-  for (const Marker& other : board.markers) {
-    if (!overlap(marker, other)) continue;
-    throw value["at_m"].error(fmt::format("marker {} lies on marker {}", marker.id, other.id));
-  }
-}
-
 Board read_mapping(const Value& value, MarkerOwners& owners) {
-  Board board{.size_m = {value["size_m"].number(0), value["size_m"].number(1)}};
+  Board board{.place = value.place(),
+              .size_m = {value["size_m"].number(0), value["size_m"].number(1)}};
   board.thickness_m = value.get("thickness_m", board.thickness_m);
   if (value.has("color")) board.color = read_color(value["color"]);
   for (const Value& element : value["markers"].elements()) {
-    const Marker marker = read_board_marker(element, value["dictionary"]);
-    owners.take(marker, element.place(), element["id"].place());
-    check_room(board, marker, element);
-    board.markers.push_back(marker);
+    board.markers.push_back(read_board_marker(element, value["dictionary"]));
+    owners.take(board.markers.back(), element.place(), element["id"].place());
   }
   return board;
 }
@@ -105,7 +59,7 @@ TexturedMesh board_shape(const Board& board) {
   const Eigen::Vector3d size_m(board.size_m.x(), board.size_m.y(), board.thickness_m);
   const Pose to_top = Pose::from_translation({0, 0, -0.5 * board.thickness_m});
   const TriangleMesh plate = box_solid(size_m).transformed(to_top);
-  return with_markers(plate, board.color, board.markers, "board");
+  return with_markers(plate, board.color, board.markers, board.place, texel_for(board.markers));
 }
 
 }  // namespace vantage

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "document_value.hpp"
@@ -13,6 +14,7 @@ namespace vantage {
 /// A plate with markers on it, by which cameras find where they are. It lies flat around the
 /// world's origin; its top is z = 0.
 struct Board {
+  std::string place;  ///< in the file, for errors
   Eigen::Vector2d size_m;
   double thickness_m = 0.01;
   Eigen::Vector3f color = {0.9f, 0.9f, 0.9f};  ///< sRGB, 0 to 1
@@ -22,13 +24,13 @@ struct Board {
 /// Reads a board, or the file that `value` names instead, relative to `folder`; adds that file to
 /// `files`.
 /// @throws Error bad_input with file, line and key for what is not as the schema of the workcell
-/// has it, a marker that OpenCV does not have, one that is there twice or that a type of the
-/// knowledge base has, and one that is not on the board or on another one.
+/// has it, a marker that OpenCV does not have, and one that is there twice or that a type of the
+/// knowledge base has.
 Board read_board(const Value& value, const KnowledgeBase& knowledge,
                  const std::filesystem::path& folder, std::vector<std::filesystem::path>& files);
 
 /// The plate with its markers printed on it, world frame.
-/// @throws Error bad_input as `with_markers` does.
+/// @throws Error bad_input as `with_markers` does, for markers beyond the edge or on one another.
 TexturedMesh board_shape(const Board& board);
 
 }  // namespace vantage

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cctype>
 
 #include "value_readers.hpp"
@@ -48,6 +49,13 @@ Marker read_marker(const Value& feature, const std::optional<Eigen::Vector3d>& b
     throw feature["face"].error("only a box has faces; give the marker's pose instead");
   }
   return marker;
+}
+
+double texel_for(std::span<const Marker> markers) {
+  constexpr double kTexelsAcross = 160;
+  double smallest_m = 1;
+  for (const Marker& marker : markers) smallest_m = std::min(smallest_m, marker.size_m);
+  return smallest_m / kTexelsAcross;
 }
 
 void MarkerOwners::take(const Marker& marker, const std::string& owner, const std::string& place) {

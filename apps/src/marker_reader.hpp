@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 
@@ -20,6 +21,10 @@ Marker read_marker(const Value& feature, const std::optional<Eigen::Vector3d>& b
 /// @throws Error bad_input with the place of the key for a dictionary that OpenCV does not have or
 /// an id outside of it.
 void check_marker(const Value& dictionary, const Value& id);
+
+/// How finely to print markers: at 160 texels along the smallest one's edge, a camera that sees it
+/// well enough sees no texels.
+double texel_for(std::span<const Marker> markers);
 
 /// The markers that are taken, and by whom. Dictionaries of one family share their first markers:
 /// 4X4_50's are the first 50 of 4X4_1000, so that a camera cannot tell one from the other.

@@ -56,8 +56,8 @@ class TypeReader {
       return type;
     }
     type.markers = read_markers(value);
-    type.shape = std::make_shared<const TexturedMesh>(
-        with_markers(plain.mesh, plain.color, type.markers, value["features"].place()));
+    type.shape = std::make_shared<const TexturedMesh>(with_markers(
+        plain.mesh, plain.color, type.markers, value["features"].place(), texel_for(type.markers)));
     return type;
   }
 
