@@ -17,6 +17,7 @@ using Eigen::Vector3d;
 // Lengths in this file are in ducks: about 1 from beak to tail.
 constexpr double kCell = 0.0205;
 constexpr double kFloor = -0.2;
+constexpr int kRelaxRounds = 3;
 
 /// An ellipsoid of the duck, turned nose up around y, and with its mirror image at -y if it has
 /// one.
@@ -29,13 +30,13 @@ struct Part {
 
 const std::vector<Part>& parts() {
   static const std::vector<Part> kParts = {
-      {{0, 0, 0}, {0.42, 0.31, 0.30}, 0, 0, false},                    // body
-      {{-0.36, 0, 0.14}, {0.19, 0.15, 0.07}, -0.75, 0.16, false},      // tail
-      {{0.18, 0, 0.37}, {0.215, 0.205, 0.21}, 0, 0.10, false},         // head
-      {{-0.07, 0.25, 0.05}, {0.24, 0.075, 0.13}, -0.35, 0.035, true},  // wings
-      {{0.405, 0, 0.335}, {0.13, 0.11, 0.04}, 0.15, 0.04, false},      // beak
-      {{0.375, 0, 0.30}, {0.12, 0.085, 0.035}, -0.1, 0.02, false},     // lower beak
-      {{0.335, 0.105, 0.44}, {0.035, 0.035, 0.045}, 0, 0.012, true},   // eyes
+      {{0, 0, 0}, {0.42, 0.31, 0.30}, 0, 0, false},                  // body
+      {{-0.34, 0, 0.15}, {0.20, 0.14, 0.11}, -0.8, 0.18, false},     // tail
+      {{0.18, 0, 0.38}, {0.225, 0.215, 0.22}, 0, 0.10, false},       // head
+      {{-0.07, 0.23, 0.05}, {0.24, 0.10, 0.14}, -0.35, 0.05, true},  // wings
+      {{0.41, 0, 0.335}, {0.14, 0.115, 0.055}, 0.2, 0.05, false},    // beak
+      {{0.36, 0, 0.285}, {0.12, 0.085, 0.06}, -0.1, 0.03, false},    // lower beak
+      {{0.31, 0.112, 0.47}, {0.045, 0.045, 0.05}, 0, 0.012, true},   // eyes
   };
   return kParts;
 }
@@ -68,10 +69,11 @@ double duck_distance(const Vector3d& p) {
   return distance;
 }
 
-/// Moves a point onto the duck: Newton's steps along the gradient, or along its level part.
-Vector3d onto_duck(Vector3d p, bool level) {
+/// Moves a point onto the duck: Newton's steps along the gradient, or along its level part. Three
+/// of them are enough from within a cell.
+Vector3d onto_duck(Vector3d p, bool level, int rounds) {
   constexpr double kStep = 1e-5;
-  for (int round = 0; round < 5; ++round) {
+  for (int round = 0; round < rounds; ++round) {
     Vector3d gradient;
     for (int axis = 0; axis < 3; ++axis) {
       const Vector3d d = kStep * Vector3d::Unit(axis);
@@ -104,17 +106,43 @@ std::vector<bool> find_rim(const detail::QuadMesh& duck) {
   return rim;
 }
 
+/// Moves every vertex but the rim's to the mean of itself and its neighbours' mean.
+void relax(detail::QuadMesh& duck, const std::vector<bool>& rim) {
+  std::vector<Vector3d> sum(duck.vertices.size(), Vector3d::Zero());
+  std::vector<int> count(duck.vertices.size(), 0);
+  for (const auto& quad : duck.quads) {
+    for (std::size_t i = 0; i < 4; ++i) {
+      sum[quad[i]] += duck.vertices[quad[(i + 1) % 4]] + duck.vertices[quad[(i + 3) % 4]];
+      count[quad[i]] += 2;
+    }
+  }
+  for (std::size_t i = 0; i < duck.vertices.size(); ++i) {
+    if (!rim[i]) duck.vertices[i] = 0.5 * (duck.vertices[i] + sum[i] / count[i]);
+  }
+}
+
+/// Puts every vertex where it belongs: on the floor, on the duck, or on the rim between them.
+void project(detail::QuadMesh& duck, const std::vector<bool>& floored, const std::vector<bool>& rim,
+             int rounds) {
+  for (std::size_t i = 0; i < duck.vertices.size(); ++i) {
+    Vector3d& p = duck.vertices[i];
+    if (floored[i]) p.z() = kFloor;
+    // What is in the first layer of cells stays there: steps down would lead through the floor.
+    if (!floored[i] || rim[i]) p = onto_duck(p, p.z() < kFloor + 1.01 * kCell, rounds);
+  }
+}
+
 detail::QuadMesh unit_duck() {
   detail::QuadMesh duck = detail::surface_nets(
       [](const Vector3d& p) { return std::max(duck_distance(p), kFloor - p.z()); }, grid());
   const std::vector<bool> rim = find_rim(duck);
-  for (std::size_t i = 0; i < duck.vertices.size(); ++i) {
-    Vector3d& p = duck.vertices[i];
-    const bool floored = on_floor(p);
-    if (floored) p.z() = kFloor;
-    // What is in the first layer of cells stays there: steps down would lead through the floor.
-    if (!floored || rim[i]) p = onto_duck(p, p.z() < kFloor + 1.01 * kCell);
+  std::vector<bool> floored;
+  for (const Vector3d& p : duck.vertices) floored.push_back(on_floor(p));
+  for (int round = 0; round < kRelaxRounds; ++round) {
+    relax(duck, rim);
+    project(duck, floored, rim, 1);
   }
+  project(duck, floored, rim, 3);
   return duck;
 }
 
