@@ -28,7 +28,7 @@ struct Distortion {
 ///         `sky_reach_m`; what is obstructed counts `bounce` of it.
 struct Lighting {
   Eigen::Vector3f lamp_centre_m = {-0.5f, -0.7f, 1.6f};
-  float lamp_side_m = 0.8f;  ///< shines on one side only, which faces `lamp_target_m`
+  float lamp_side_m = 0.6f;  ///< shines on one side only, which faces `lamp_target_m`
   Eigen::Vector3f lamp_target_m = {0, 0, 0};
   float exposure = 0.85f;    ///< linear signal, full scale 1, of a perfectly white surface at the
                              ///< target that faces the lamp, with nothing around

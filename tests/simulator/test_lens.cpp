@@ -1,0 +1,102 @@
+#include <doctest/doctest.h>
+
+#include <opencv2/calib3d.hpp>
+
+#include "simulator/color_scenes.hpp"
+#include "simulator/lens.hpp"
+#include "support/expect_error.hpp"
+
+namespace vantage::test {
+namespace {
+
+const Intrinsics kIntrinsics{640, 480, 615, 611, 322.3, 238.1};
+
+const Distortion kDistortions[] = {{0.1, -0.05, 0.001, -0.002, 0.01},
+                                   {-0.28, 0.09, 0, 0, 0},
+                                   {0, 0, 0.01, 0.008, 0},
+                                   {-0.05, 0, 0, 0, 0.2}};
+
+/// Where OpenCV has a point of the camera's frame on the image.
+cv::Point2d projected(const Eigen::Vector3d& p, const Intrinsics& k, const Distortion& d) {
+  const cv::Matx33d matrix(k.fx, 0, k.cx, 0, k.fy, k.cy, 0, 0, 1);
+  std::vector<cv::Point2d> result;
+  cv::projectPoints(std::vector<cv::Point3d>{{p.x(), p.y(), p.z()}}, cv::Vec3d(), cv::Vec3d(),
+                    matrix, std::vector<double>{d.k1, d.k2, d.p1, d.p2, d.k3}, result);
+  return result[0];
+}
+
+}  // namespace
+
+TEST_CASE("pixels look at the points that OpenCV projects onto them") {
+  for (const Distortion& distortion : kDistortions) {
+    const Lens lens(kIntrinsics, distortion);
+    for (int v = 0; v < 480; v += 17) {
+      Eigen::Vector2d guess = Eigen::Vector2d::Zero();
+      for (int u = 0; u < 640; u += 7) {
+        const PixelSight sight = lens.sight(u, v, guess);
+        guess = sight.xy;
+        const cv::Point2d at = projected(1.7 * sight.xy.homogeneous(), kIntrinsics, distortion);
+        CHECK(std::abs(at.x - u) < 1e-6);
+        CHECK(std::abs(at.y - v) < 1e-6);
+        // The derivatives take a step of half a pixel to a thousandth of one.
+        const Eigen::Vector2d moved = sight.xy + sight.per_pixel * Eigen::Vector2d(0.5, -0.5);
+        const cv::Point2d beside = projected(moved.homogeneous(), kIntrinsics, distortion);
+        CHECK(std::abs(beside.x - u - 0.5) < 1e-3);
+        CHECK(std::abs(beside.y - v + 0.5) < 1e-3);
+      }
+    }
+  }
+}
+
+TEST_CASE("a photograph has things where OpenCV projects them, with a lens and without") {
+  const Pose T_world_cam = Pose::looking_at({0, 0, 1}, {0, 0, 0});
+  std::vector<Eigen::Vector3d> centres;
+  std::vector<SimulatedBody> bodies = {picture_body(3, 3, ColorImage(1, 1, 255))};
+  for (int i = 0; i < 12; ++i) {  // black squares of 9 pixels
+    centres.push_back({0.14 * (i % 4) - 0.21, 0.15 * (i / 4) - 0.15, 0});
+    bodies.push_back(
+        picture_body(0.015, 0.015, ColorImage(1, 1, 0),
+                     Pose::from_translation(centres.back() + Eigen::Vector3d(0, 0, 1e-5))));
+  }
+  const SimulatedScene scene(std::move(bodies));
+  for (const Distortion& distortion : {Distortion{}, kDistortions[0], kDistortions[1]}) {
+    ColorSensor sensor;
+    sensor.distortion = distortion;
+    const PinholeCamera camera(kIntrinsics, T_world_cam);
+    const ColorImage image = *simulate_color(scene, even_light(), camera, sensor, 1);
+    for (const Eigen::Vector3d& centre : centres) {
+      const cv::Point2d at = projected(T_world_cam.inverse() * centre, kIntrinsics, distortion);
+      double weight = 0, u_sum = 0, v_sum = 0;
+      for (int v = int(at.y) - 12; v <= int(at.y) + 12; ++v) {
+        for (int u = int(at.x) - 12; u <= int(at.x) + 12; ++u) {
+          const double dark = 1 - light_of(image.pixel(u, v)[0]);
+          weight += dark, u_sum += dark * u, v_sum += dark * v;
+        }
+      }
+      CHECK(weight > 50);
+      CHECK(std::abs(u_sum / weight - at.x) < 0.05);
+      CHECK(std::abs(v_sum / weight - at.y) < 0.05);
+    }
+  }
+}
+
+TEST_CASE("lenses that fold the image over, and coefficients that are no numbers, are refused") {
+  const auto refused = [](const Distortion& distortion, const char* message) {
+    expect_bad_input("color sensor: distortion", message, [&] { Lens(kIntrinsics, distortion); });
+    ColorSensor sensor;
+    sensor.distortion = distortion;
+    const SimulatedScene scene({picture_body(1, 1, ColorImage(1, 1))});
+    expect_bad_input("color sensor: distortion", message,
+                     [&] { simulate_color(scene, {}, PinholeCamera(kIntrinsics, {}), sensor, 1); });
+  };
+  refused({-0.6, 0, 0, 0, 0},
+          "with k1 = -0.6, k2 = 0, p1 = 0, p2 = 0, k3 = 0 the image folds over");
+  refused({-1.5, 0.4, 0, 0, 0}, "folds over before pixel (");  // and unfolds again farther out
+  refused({0, 0, 0.5, 0, 0}, "folds over before pixel (");
+  refused({0, std::nan(""), 0, 0, 0}, "a coefficient is nan; expected finite numbers");
+  refused({0, 0, 0, 0, INFINITY}, "a coefficient is inf");
+  // The same lens is good where the image ends before the fold.
+  CHECK_NOTHROW(Lens({640, 480, 1200, 1200, 320, 240}, {-0.6, 0, 0, 0, 0}));
+}
+
+}  // namespace vantage::test
