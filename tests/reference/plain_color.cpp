@@ -47,7 +47,7 @@ Eigen::Vector3d PlainColor::on_lamp(const Eigen::Vector2d& xy) const {
 
 double PlainColor::lamp_light(const Eigen::Vector3d& position,
                               const Eigen::Vector3d& normal) const {
-  constexpr int kSide = 40;
+  constexpr int kSide = 20;
   double sum = 0;
   for (int i = 0; i < kSide * kSide; ++i) {
     const Eigen::Vector2d xy((i % kSide + 0.5) / kSide - 0.5, (i / kSide + 0.5) / kSide - 0.5);

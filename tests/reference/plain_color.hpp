@@ -17,7 +17,7 @@ struct PlainLight {
 };
 
 /// The slow, obvious twin of simulate_color: one ray after the other against every triangle, in
-/// double, the lamp as a grid of 40 × 40 points. No lens and no noise: those have tests of their
+/// double, the lamp as a grid of 20 × 20 points. No lens and no noise: those have tests of their
 /// own.
 class PlainColor {
  public:

@@ -40,7 +40,7 @@ Lighting random_lighting(Random& random) {
 }
 
 PinholeCamera random_camera(Random& random) {
-  return {{41, 31, 35, 37, 19.5, 15.5}, Pose::looking_at(1.4 * random.direction(), {0, 0, 0})};
+  return {{29, 21, 25, 26, 13.5, 10.5}, Pose::looking_at(1.4 * random.direction(), {0, 0, 0})};
 }
 
 /// The greatest difference over the channels, in codes.
@@ -54,7 +54,7 @@ double difference(const std::uint8_t* code, const Eigen::Vector3d& light) {
 
 TEST_CASE("with one sample per pixel the picture is the twin's, to rounding") {
   int compared = 0, close_calls = 0;
-  for (std::uint32_t seed = 0; seed < scene_count(6); ++seed) {
+  for (std::uint32_t seed = 0; seed < scene_count(5); ++seed) {
     CAPTURE(seed);
     Random random(seed);
     const std::vector<SimulatedBody> bodies = random_bodies(random);
@@ -71,7 +71,7 @@ TEST_CASE("with one sample per pixel the picture is the twin's, to rounding") {
         if (expected.close_call) continue;
         CAPTURE(u);
         CAPTURE(v);
-        CHECK(difference(image->pixel(u, v), expected.light) <= 1.5);
+        CHECK(difference(image->pixel(u, v), expected.light) <= 1);
       }
     }
   }
@@ -90,7 +90,7 @@ TEST_CASE("with many samples the picture is what other samples of the twin come 
   constexpr int kPixels = 12, kCount = 300;
   double sum = 0;
   for (int i = 0; i < kPixels; ++i) {
-    const int u = int(random.below(41)), v = int(random.below(31));
+    const int u = int(random.below(29)), v = int(random.below(21));
     CAPTURE(u);
     CAPTURE(v);
     const Eigen::Vector3d expected = twin.mean(u, v, kCount, random).light;
