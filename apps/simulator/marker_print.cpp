@@ -73,13 +73,15 @@ void print_cells(ColorImage& texture, const Region& region, const PrintedMarker&
   const auto cell = [&](double from_edge) {
     return std::clamp(int(std::floor(from_edge / marker.size_m * side)), 0, side - 1);
   };
-  for_each_texel(texture, region, marker, texel_m, marker.size_m / 2,
-                 [&](std::uint8_t* texel, const Eigen::Vector3d& p) {
-                   const int row = cell(marker.size_m / 2 - p.y());
-                   const int column = cell(marker.size_m / 2 + p.x());
-                   const bool white = marker.cells.white[std::size_t(row * side + column)];
-                   std::fill_n(texel, 3, white ? kWhite : kBlack);
-                 });
+  for_each_texel(
+      texture, region, marker, texel_m, marker.size_m / 2,
+      [&](std::uint8_t* texel, const Eigen::Vector3d& p) {
+        const int row = cell(marker.size_m / 2 - p.y());
+        const int column = cell(marker.size_m / 2 + p.x());
+        const bool white =
+            marker.cells.white[std::size_t(row) * std::size_t(side) + std::size_t(column)];
+        std::fill_n(texel, 3, white ? kWhite : kBlack);
+      });
 }
 
 void set_uv(TexturedMesh& result, const MarkedFace& face, const Region& region, double texel_m) {
@@ -105,6 +107,7 @@ TexturedMesh with_markers(const TriangleMesh& mesh, const Eigen::Vector3f& color
   if (faces.empty()) return result;
 
   std::vector<Region> regions;
+  regions.reserve(faces.size() + 1);
   for (const MarkedFace& face : faces) regions.push_back(detail::region_for(mesh, face, texel_m));
   regions.push_back({0, 0, 3, 3});  // for all that has no marker
   result.texture = detail::lay_out(regions, where);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 #include "simulator/textured_mesh.hpp"
 
@@ -34,16 +35,25 @@ inline Eigen::Vector3d barycentric(const TriangleMesh& mesh, std::size_t triangl
   return {1 - wb - wc, wb, wc};
 }
 
-/// The colour at a point of the surface that looks along `normal`; nothing if there is none.
-inline std::optional<std::array<int, 3>> color_at(const TexturedMesh& shape,
-                                                  const Eigen::Vector3d& point,
-                                                  const Eigen::Vector3d& normal) {
-  for (std::size_t t = 0; t < shape.mesh.triangles().size(); ++t) {
-    const Eigen::Vector3d a = shape.mesh.corner(t, 0).cast<double>();
-    const Eigen::Vector3d n = (shape.mesh.corner(t, 1).cast<double>() - a)
-                                  .cross(shape.mesh.corner(t, 2).cast<double>() - a)
+/// The triangles that look along `normal`, to 0.04 rad.
+inline std::vector<std::size_t> facing(const TriangleMesh& mesh, const Eigen::Vector3d& normal) {
+  std::vector<std::size_t> triangles;
+  for (std::size_t t = 0; t < mesh.triangles().size(); ++t) {
+    const Eigen::Vector3d a = mesh.corner(t, 0).cast<double>();
+    const Eigen::Vector3d n = (mesh.corner(t, 1).cast<double>() - a)
+                                  .cross(mesh.corner(t, 2).cast<double>() - a)
                                   .normalized();
-    if (n.dot(normal) < 0.999 || std::abs(n.dot(point - a)) > 2e-4) continue;
+    if (n.dot(normal) > 0.9992) triangles.push_back(t);
+  }
+  return triangles;
+}
+
+/// The colour at a point that lies on one of these triangles, which are in one plane; nothing
+/// beside them.
+inline std::optional<std::array<int, 3>> color_at(const TexturedMesh& shape,
+                                                  const std::vector<std::size_t>& triangles,
+                                                  const Eigen::Vector3d& point) {
+  for (const std::size_t t : triangles) {
     const Eigen::Vector3d weights = barycentric(shape.mesh, t, point);
     if (weights.minCoeff() >= -1e-9) return texel_at(shape, t, weights);
   }
