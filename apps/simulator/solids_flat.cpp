@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <string>
+#include <vector>
 
 #include "simulator/ring_stack.hpp"
 #include "simulator/solid_checks.hpp"

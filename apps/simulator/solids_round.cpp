@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 #include "simulator/ring_stack.hpp"
 #include "simulator/solid_checks.hpp"

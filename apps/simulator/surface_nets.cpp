@@ -1,5 +1,8 @@
 #include "simulator/surface_nets.hpp"
 
+#include <cstddef>
+#include <utility>
+
 namespace vantage::detail {
 namespace {
 

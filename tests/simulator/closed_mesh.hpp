@@ -3,8 +3,11 @@
 #include <doctest/doctest.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
+#include <cstdint>
 #include <map>
 #include <utility>
+#include <vector>
 
 #include "vantage/raycore/triangle_mesh.hpp"
 #include "volume/mesh_measures.hpp"

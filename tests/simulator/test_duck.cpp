@@ -1,9 +1,12 @@
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>
 #include <numbers>
+#include <utility>
+#include <vector>
 
 #include "closed_mesh.hpp"
 #include "simulator/solids.hpp"

@@ -1,6 +1,9 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <array>
+#include <cstdint>
+#include <string>
 
 #include "simulator/marker.hpp"
 #include "support/detect_markers.hpp"

@@ -1,8 +1,12 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <numbers>
+#include <optional>
 #include <random>
+#include <vector>
 
 #include "simulator/marker.hpp"
 #include "simulator/solids.hpp"
@@ -214,6 +218,51 @@ TEST_CASE("a face whose triangles repeat their vertices is one face") {
   const TexturedMesh welded = with_markers(box, kOrange, {&marker, 1}, "test");
   CHECK(soup.texture == welded.texture);
   CHECK(soup.uv == welded.uv);
+}
+
+TEST_CASE("a face may be round, and its triangles long and thin") {
+  const TriangleMesh cylinder = cylinder_solid(0.03, 0.02);
+  const auto on_top = [](double size_m) {
+    return Marker{"4X4_50", 9, size_m, Pose::from_translation({0.001, 0, 0.01})};
+  };
+  const Marker fits = on_top(0.041), large = on_top(0.043);
+  const TexturedMesh shape = with_markers(cylinder, kOrange, {&fits, 1}, "test");
+  const auto top = facing(cylinder, {0, 0, 1});
+  CHECK(top.size() == 48);
+  CHECK(color_at(shape, top, {0.001, 0.0204, 0.01}) == std::array{15, 15, 15});
+  CHECK(color_at(shape, top, {0.001, 0.0206, 0.01}) == std::array{235, 235, 235});
+  expect_refused(
+      [&] {
+        with_markers(cylinder, kOrange, {&large, 1}, "test");
+      },
+      "4X4_50", {"beyond the face's edge"});
+}
+
+TEST_CASE("a curved wall takes no marker wider than its facets, and a hole none at all") {
+  Matrix3d outwards;
+  outwards << 0, 0, 1, 1, 0, 0, 0, 1, 0;  // z along x
+  const double facet = 0.03 * std::cos(std::numbers::pi / 48);
+  const Matrix3d turn =
+      Eigen::AngleAxisd(std::numbers::pi / 48, Vector3d::UnitZ()).toRotationMatrix();
+  const Pose pose = Pose::from_rotation(turn * outwards, turn * Vector3d(facet, 0, 0));
+  const Marker narrow{"4X4_50", 1, 0.003, pose}, wide{"4X4_50", 1, 0.006, pose};
+  with_markers(cylinder_solid(0.03, 0.02), kOrange, {&narrow, 1}, "test");
+  expect_refused(
+      [&] {
+        with_markers(cylinder_solid(0.03, 0.02), kOrange, {&wide, 1}, "test");
+      },
+      "4X4_50", {"beyond the face's edge"});
+
+  // Stands on both plates of the bracket's side, with a corner over the gap between them.
+  const Vector3d size(0.08, 0.05, 0.08);
+  const Marker over{"4X4_50", 1, 0.03, face_pose(size, 3, 0, {-0.024, -0.024, 0})};
+  const Marker beside{"4X4_50", 1, 0.029, face_pose(size, 3, 0, {-0.025, -0.025, 0})};
+  with_markers(bracket_solid(size, 0.03), kOrange, {&beside, 1}, "test");
+  expect_refused(
+      [&] {
+        with_markers(bracket_solid(size, 0.03), kOrange, {&over, 1}, "test");
+      },
+      "4X4_50", {"beyond the face's edge"});
 }
 
 TEST_CASE("without markers there is no texture") {
