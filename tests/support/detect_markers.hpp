@@ -58,7 +58,8 @@ inline cv::Vec4f side_line(const cv::Mat1f& light, cv::Point2d a, cv::Point2d b,
   for (int k = 0; k <= 40; ++k) {
     const cv::Point2d p = a + (0.12 + 0.76 * k / 40) * (b - a);
     double fall = 0;
-    const double offset = edge_offset(light, p, inwards, std::clamp(0.7 * cell_px, 1.5, 4.0), fall);
+    // Within the white around the marker, which may be less than a cell and end at something dark.
+    const double offset = edge_offset(light, p, inwards, std::clamp(0.4 * cell_px, 1.5, 4.0), fall);
     if (fall > 0.02 && std::abs(offset) < 4) points.emplace_back(p + offset * inwards);
   }
   if (points.size() < 10) return {float(along.x), float(along.y), float(a.x), float(a.y)};
