@@ -32,9 +32,9 @@ struct Lighting {
   Eigen::Vector3f lamp_target_m = {0, 0, 0};
   float exposure = 0.85f;    ///< linear signal, full scale 1, of a perfectly white surface at the
                              ///< target that faces the lamp, with nothing around
-  float lamp_share = 0.65f;  ///< part of that light that the lamp gives; the sky's is the rest
+  float lamp_share = 0.5f;  ///< part of that light that the lamp gives; the sky's is the rest
   float sky_reach_m = 0.6f;  ///< what is farther away takes no light of the sky
-  float bounce = 0.3f;       ///< what things around throw back, as a part of the sky's light
+  float bounce = 0.5f;       ///< what things around throw back, as a part of the sky's light
   Eigen::Vector3f background = {0.90f, 0.91f, 0.93f};  ///< sRGB; what rays that meet nothing see
 };
 
