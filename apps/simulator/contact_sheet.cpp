@@ -60,7 +60,7 @@ struct Lettering {
 
   explicit Lettering(double px)
       : scale(cv::getFontScaleFromHeight(kFont, int(std::lround(px)))),
-        thickness(1),
+        thickness(std::max(1, int(px / 15))),
         capital_px(int(std::lround(px))) {}
 
   int width(const std::string& text) const {

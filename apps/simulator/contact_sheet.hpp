@@ -22,10 +22,11 @@ struct ContactSheetOptions {
   int margin = 36;       ///< around everything
 };
 
-/// All pictures on one sheet: a heading for each scene, in the order in which they first come, and
-/// under it its cameras' thumbnails with their names, averaged over areas in linear light. A scene
-/// with more pictures than columns goes on in the next row; scenes that fit beside the one before
-/// share its row. Pictures of another shape than 4 : 3 are fitted into the thumbnail's place.
+/// All pictures on one sheet: a heading for each scene, and under it its cameras' thumbnails with
+/// their names, averaged over areas in linear light. Scenes follow in the order in which they first
+/// come, but one that fits into what an earlier row has left goes there. A scene with more pictures
+/// than columns goes on in the next row. Pictures of another shape than 4 : 3 are fitted into the
+/// thumbnail's place.
 ///
 /// Text that is too long for its place ends in dots; OpenCV's fonts have ASCII alone, and show "?"
 /// for anything else. The same pictures give the same bytes. Thread-safe.

@@ -22,15 +22,20 @@ std::vector<SheetBlock> group_by_scene(std::span<const LabelledPicture> pictures
 
 SheetLayout layout_sheet(std::span<const LabelledPicture> pictures, int columns) {
   SheetLayout layout{0, 0, group_by_scene(pictures)};
-  int row = 0, column = 0;  // where the next block may stand
+  std::vector<int> used;  // columns of each row
   for (SheetBlock& block : layout.blocks) {
     const int width = block.width(columns), height = block.height(columns);
-    if (column + width > columns) row = layout.rows, column = 0;
-    block.row = row, block.column = column;
-    column = height > 1 ? columns : column + width;  // nothing stands beside one of several rows
-    layout.rows = std::max(layout.rows, row + height);
+    auto row = used.end();  // nothing stands beside a block of several rows
+    if (height == 1) {
+      row = std::find_if(used.begin(), used.end(), [&](int u) { return u + width <= columns; });
+    }
+    block.row = int(row - used.begin());
+    block.column = row == used.end() ? 0 : *row;
+    if (row == used.end()) used.insert(used.end(), std::size_t(height), height > 1 ? columns : 0);
+    if (height == 1) used[std::size_t(block.row)] += width;
     layout.columns = std::max(layout.columns, block.column + width);
   }
+  layout.rows = int(used.size());
   return layout;
 }
 

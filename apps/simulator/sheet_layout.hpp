@@ -25,7 +25,8 @@ struct SheetLayout {
   std::vector<SheetBlock> blocks;
 };
 
-/// Blocks of scenes, in the order in which the scenes first come, side by side where they fit.
+/// Blocks of scenes in the order in which the scenes first come. Each stands in the first row that
+/// has room for it beside those before; one of several rows stands alone.
 SheetLayout layout_sheet(std::span<const LabelledPicture> pictures, int columns);
 
 }  // namespace vantage
