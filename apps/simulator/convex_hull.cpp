@@ -46,8 +46,9 @@ class Hull {
 
   /// Qhull keeps the pointer to the coordinates.
   void run(std::vector<double>& coordinates) {
-    // Merges facets whose centres are that near to each other's plane.
-    char command[] = "qhull C1e-6";
+    // Merges facets whose centres are that near to each other's plane, as soon as they appear:
+    // merging afterwards ("C1e-6") takes minutes for a smooth ball of 30,000 corners.
+    char command[] = "qhull C-1e-6";
     if (qh_new_qhull(&state_, 3, int(coordinates.size() / 3), coordinates.data(), False, command,
                      nullptr, messages_) == 0) {
       return;
