@@ -123,7 +123,6 @@ TEST_CASE("objects that contradict themselves or others are refused") {
   expect_text_refused("knowledge_base: [types.yaml, gone.yaml]\n", "knowledge_base[1]",
                       {"no file"});
   expect_text_refused("knowledge_base: []\n", "knowledge_base", {"found []"});
-});
 }
 
 TEST_CASE("a board's markers lie on z = 0 and turn around z") {
