@@ -1,0 +1,49 @@
+#include "plan_input.hpp"
+
+#include <doctest/doctest.h>
+
+#include <string>
+
+#include "reconstruction/scene_folder.hpp"
+
+namespace vantage::test {
+namespace {
+
+constexpr std::string_view kCell =
+    "work_area: {min_m: [-1, -1, 0], max_m: [1, 1, 0.5]}\n"
+    "knowledge_base: types.yaml\n"
+    "known_objects: [{name: a, type: cube, pose: {translation_m: [0.1, 0.2, 0.3]}}]\n"
+    "static_structures: [{name: b, type: cube}, {name: c, shape: {sphere: {radius_m: 0.1}}}]\n"
+    "foreign_objects: [{name: d, type: cube, pose: {translation_m: [0.5, 0, 0]}}]\n"
+    "board: {size_m: [1, 1], dictionary: 4X4_50, markers: []}\n"
+    "cameras: [{name: e, eye_m: [0, 0, 1], target_m: [0, 0, 0]}]\n"
+    "random_objects: {count: 2, types: [cube]}\n";
+
+}  // namespace
+
+TEST_CASE("the planner gets objects of types with their meshes, and nothing of the simulator's") {
+  SceneFolder scene;
+  scene.good_entry().depth().color();
+  TemporaryFolder folder;
+  folder.write("types.yaml",
+               "object_types: [{name: cube, shape: {box: {size_m: [0.1, 0.2, 0.4]}}}]\n");
+  PlanOptions options;
+  options.dataset = scene.path();
+  options.workcell = folder.write("cell.yaml", kCell);
+  const PlanInput input = load_plan_input(options);
+
+  REQUIRE(input.world.objects.size() == 1);
+  const KnownObject& cube = input.world.objects[0];
+  CHECK(cube.name == "a");
+  CHECK(cube.T_world_object.translation() == Eigen::Vector3d(0.1, 0.2, 0.3));
+  Eigen::AlignedBox3f bounds;
+  for (const Eigen::Vector3f& vertex : cube.mesh->vertices()) bounds.extend(vertex);
+  CHECK(bounds.max() == Eigen::Vector3f(0.05f, 0.1f, 0.2f));
+  REQUIRE(input.world.static_structures.size() == 2);
+  CHECK(input.world.static_structures[0].mesh == cube.mesh);
+  CHECK(input.world.cameras.size() == 1);  // the dataset's
+  CHECK(input.world.cameras[0].name == "7");
+  CHECK(input.record.inputs[1] == folder / "types.yaml");
+}
+
+}  // namespace vantage::test
