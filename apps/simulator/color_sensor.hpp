@@ -27,12 +27,12 @@ struct Distortion {
 ///   sky:  the part of the hemisphere, weighted by the cosine, that nothing obstructs within
 ///         `sky_reach_m`; what is obstructed counts `bounce` of it.
 struct Lighting {
-  Eigen::Vector3f lamp_centre_m = {-0.5f, -0.7f, 1.6f};
+  Eigen::Vector3f lamp_centre_m = {-0.7f, -0.8f, 1.4f};
   float lamp_side_m = 0.6f;  ///< shines on one side only, which faces `lamp_target_m`
   Eigen::Vector3f lamp_target_m = {0, 0, 0};
   float exposure = 0.85f;    ///< linear signal, full scale 1, of a perfectly white surface at the
                              ///< target that faces the lamp, with nothing around
-  float lamp_share = 0.5f;  ///< part of that light that the lamp gives; the sky's is the rest
+  float lamp_share = 0.55f;  ///< part of that light that the lamp gives; the sky's is the rest
   float sky_reach_m = 0.6f;  ///< what is farther away takes no light of the sky
   float bounce = 0.5f;       ///< what things around throw back, as a part of the sky's light
   Eigen::Vector3f background = {0.90f, 0.91f, 0.93f};  ///< sRGB; what rays that meet nothing see
