@@ -42,10 +42,9 @@ struct Lighting {
 struct ColorSensor {
   int samples_per_pixel = 16;  ///< 1 to 4096
   Distortion distortion = {};
-  double vignetting =
-      0;  ///< 0: none; 1: the cos⁴ law in full. The signal times 1 − (1 − cos⁴) · it
-  double read_noise = 0;  ///< standard deviation of the linear signal, full scale = 1
-  double shot_noise = 0;  ///< variance per unit of linear signal, full scale = 1
+  double vignetting = 0;  ///< 0 to 1: the signal times 1 − (1 − cos⁴) · it; 1 is the cos⁴ law
+  double read_noise = 0;  ///< 0 to 1: standard deviation of the linear signal, full scale = 1
+  double shot_noise = 0;  ///< 0 to 1: variance per unit of linear signal, full scale = 1
 };
 
 /// What the camera photographs: direct light of the lamp with soft shadows, skylight with ambient
