@@ -168,6 +168,26 @@ TEST_CASE("nothing in any other scene crosses another thing") {
   for (const std::string& name : other_names()) check_nothing_crosses(name);
 }
 
+TEST_CASE("known objects stand on something") {
+  for (const char* name : {"bin", "castle", "corridor", "duck", "wall", "workcell"}) {
+    CAPTURE(name);
+    const Workcell cell = shipped(name);
+    std::vector<Solid> solids = solids_of(cell);
+    const SimulatedCell simulated = simulated_cell(cell);
+    for (std::size_t i = 0; i < solids.size(); ++i) {
+      CAPTURE(solids[i].name);
+      if (simulated.bodies[i].kind != BodyKind::known_object) continue;
+      Solid lowered = solids[i];
+      lowered.pose = Pose::from_translation({0, 0, -5e-4}) * lowered.pose;
+      bool stands = false;
+      for (std::size_t j = 0; j < solids.size(); ++j) {
+        stands = stands || (i != j && cross(lowered, solids[j]));
+      }
+      CHECK(stands);
+    }
+  }
+}
+
 TEST_CASE("what crosses is found, what touches is not") {
   const TriangleMesh box = TriangleMesh::from_box(Box({0, 0, 0}, {1, 1, 1}));
   const auto at = [&](double x) {
