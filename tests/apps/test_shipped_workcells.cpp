@@ -169,7 +169,8 @@ TEST_CASE("nothing in any other scene crosses another thing") {
 }
 
 TEST_CASE("known objects stand on something") {
-  for (const char* name : {"bin", "castle", "corridor", "duck", "wall", "workcell"}) {
+  const std::vector<std::string> names{"bin", "castle", "corridor", "duck", "wall", "workcell"};
+  for (const std::string& name : names) {
     CAPTURE(name);
     const Workcell cell = shipped(name);
     std::vector<Solid> solids = solids_of(cell);
