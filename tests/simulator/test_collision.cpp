@@ -86,7 +86,7 @@ TEST_CASE("collision: two cubes, by a hair on either side of the gap") {
 }
 
 TEST_CASE("collision: what lies within a solid touches it, what stands in its hollow does not") {
-  const Body ball(icosphere(0.1, 3)), small(cuboid(0.02, 0.02, 0.02));
+  const Body ball(icosphere(0.1, 2)), small(cuboid(0.02, 0.02, 0.02));
   CHECK(surface_distance(ball.mesh, {}, small.mesh, {}) > 0.07);
   CHECK(closer(0.002, ball, {}, small, {}));
   CHECK(closer(0.002, ball, {}, small, shifted(0.05, 0.03, -0.02)));
@@ -104,7 +104,7 @@ TEST_CASE("collision: what lies within a solid touches it, what stands in its ho
 TEST_CASE("collision: random bodies, against every pair of triangles in double") {
   Random random(42);
   int near = 0, within = 0, free = 0;
-  for (std::uint32_t i = 0; i < scene_count(250); ++i) {
+  for (std::uint32_t i = 0; i < scene_count(200); ++i) {
     CAPTURE(i);
     const auto pick = [&]() -> TriangleMesh {
       switch (random.below(6)) {
@@ -122,8 +122,10 @@ TEST_CASE("collision: random bodies, against every pair of triangles in double")
           return random_convex_body(random);
       }
     };
-    const Body a(pick()), b(pick());
-    const Pose T_world_a = random.pose(0.1), T_world_b = random.pose(0.1);
+    const bool nested = i % 4 == 0;  // what lies within the other, without touching its surface
+    const Body a(nested ? icosphere(0.1, 1) : pick()),
+        b(nested ? cuboid(0.02, 0.01, 0.03) : pick());
+    const Pose T_world_a = random.pose(0.08), T_world_b = random.pose(0.08);
     const double gap = random.uniform(1e-4, 0.02);
     const double distance = surface_distance(a.mesh, T_world_a, b.mesh, T_world_b);
     const auto corner = [](const Body& body, const Pose& pose) {
