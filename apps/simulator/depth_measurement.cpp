@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "simulator/normal_noise.hpp"
+#include "simulator/sample_hash.hpp"
 #include "vantage/raycore/multiversion.hpp"
 
 namespace vantage::detail {
@@ -54,7 +55,7 @@ DepthMeasurement::DepthMeasurement(const StereoSensor& sensor, const DepthRange&
                                    std::uint64_t seed)
     : exact_(sensor.noise.subpixel_px == 0 && sensor.disparity_step_px == 0 &&
              sensor.max_disparity_px == 0) {
-  const std::uint64_t key = hash64(seed);
+  const std::uint64_t key = scatter(seed);
   numbers_ = {.focal_times_baseline = float(sensor.noise.focal_px * sensor.noise.baseline_m),
               .sigma_px = float(sensor.noise.subpixel_px),
               .step_px = float(sensor.disparity_step_px),

@@ -5,17 +5,13 @@
 #include <array>
 #include <cmath>
 
-#include "simulator/normal_noise.hpp"
+#include "simulator/sample_hash.hpp"
 
 namespace vantage::detail {
 namespace {
 
 constexpr float kJump = 0.02f;
-
-/// A number in [0, 1).
-double unit(std::uint64_t hash) {
-  return double(hash >> 11) * 0x1p-53;
-}
+constexpr std::uint64_t kPurpose = 1;  // other numbers than the noise of the same seed
 
 class Mixer {
  public:
@@ -56,9 +52,9 @@ void add_flying_pixels(std::vector<float>& metres, int width, int height, double
       const float own = mixer.at(u, v), other = mixer.other_side(u, v);
       if (!(own != other) || std::isnan(own)) continue;
       const std::size_t pixel = std::size_t(v) * std::size_t(width) + std::size_t(u);
-      const std::uint64_t chance = hash64(hash64(seed ^ 0xF1F1F1F1u) + pixel);
-      if (unit(chance) >= share) continue;
-      const double weight = unit(hash64(chance));
+      const std::uint64_t chance = sample_hash(seed, kPurpose, pixel);
+      if (to_unit(chance) >= share) continue;
+      const double weight = to_unit(scatter(chance));
       metres[pixel] = float(1 / ((1 - weight) / double(own) + weight / double(other)));
     }
   });

@@ -5,14 +5,6 @@
 
 namespace vantage::detail {
 
-/// A 64-bit hash: the finaliser of splitmix64 (Steele, Lea and Flood 2014, Stafford's variant 13).
-constexpr std::uint64_t hash64(std::uint64_t x) {
-  x += 0x9E3779B97F4A7C15u;
-  x = (x ^ (x >> 30)) * 0xBF58476D1CE4E5B9u;
-  x = (x ^ (x >> 27)) * 0x94D049BB133111EBu;
-  return x ^ (x >> 31);
-}
-
 /// A 32-bit hash of a counter under a key, in steps that vector units have: two rounds of Wellons'
 /// "lowbias32".
 [[gnu::always_inline]] inline std::uint32_t hash32(std::uint32_t x, std::uint32_t key0,

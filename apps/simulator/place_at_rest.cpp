@@ -7,8 +7,8 @@
 #include <optional>
 
 #include "simulator/collision.hpp"
-#include "simulator/counted_random.hpp"
 #include "simulator/placement.hpp"
+#include "simulator/sample_hash.hpp"
 #include "vantage/raycore/error.hpp"
 
 namespace vantage {
@@ -36,11 +36,13 @@ struct Placed {
 // Random numbers of one try, told apart by what they are for.
 struct Dice {
   std::uint64_t seed, body, attempt;
-  double turn() const { return 2 * std::numbers::pi * counted_random({seed, body, attempt, 0}); }
-  double x() const { return counted_random({seed, body, attempt, 1}); }
-  double y() const { return counted_random({seed, body, attempt, 2}); }
-  double pose() const { return counted_random({seed, body, attempt, 3}); }
-  double upright() const { return counted_random({seed, body, 0, 4}); }  // whatever the try
+  double turn() const {
+    return 2 * std::numbers::pi * to_unit(sample_hash(seed, body, attempt, 0));
+  }
+  double x() const { return to_unit(sample_hash(seed, body, attempt, 1)); }
+  double y() const { return to_unit(sample_hash(seed, body, attempt, 2)); }
+  double pose() const { return to_unit(sample_hash(seed, body, attempt, 3)); }
+  double upright() const { return to_unit(sample_hash(seed, body, 0, 4)); }  // whatever the try
 };
 
 void check(const PlacementOptions& options) {

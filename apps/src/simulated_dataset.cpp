@@ -5,7 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "simulator/normal_noise.hpp"
+#include "simulator/sample_hash.hpp"
 #include "vantage/raycore/error.hpp"
 #include "vantage/raycore/file.hpp"
 #include "vantage/raycore/image_io.hpp"
@@ -100,7 +100,7 @@ bool record(const Workcell& workcell, const SimulatedCell& cell, const Recording
   stop.expect(workcell.cameras.size());
   for (std::size_t i = 0; i < workcell.cameras.size(); ++i) {
     const PinholeCamera& camera = workcell.cameras[i].camera;
-    const std::uint64_t seed = detail::hash64(options.seed ^ detail::hash64(i));
+    const std::uint64_t seed = sample_hash(options.seed, i);
     const auto color =
         simulate_color(cell.scene, options.lighting, camera, options.color, seed, stop);
     if (!color || stop.stop_requested()) return false;

@@ -12,6 +12,7 @@
 #include "simulator/color_sensor.hpp"
 #include "simulator/depth_sensor.hpp"
 #include "simulator/normal_noise.hpp"
+#include "simulator/sample_hash.hpp"
 #include "timing.hpp"
 #include "workload.hpp"
 
@@ -106,7 +107,7 @@ Workload device_rays(const Setting& s, const Workload& first, double offset_m) {
 Eigen::Vector3f random_vector(std::uint64_t key) {
   Eigen::Vector3f v;
   for (int i = 0; i < 3; ++i) {
-    v[i] = detail::signed_unit(std::uint32_t(detail::hash64(3 * key + std::uint64_t(i))));
+    v[i] = detail::signed_unit(std::uint32_t(sample_hash(key, i)));
   }
   return v;
 }

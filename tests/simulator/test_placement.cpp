@@ -6,9 +6,9 @@
 #include <limits>
 
 #include "reference/plain_distance.hpp"
-#include "simulator/counted_random.hpp"
 #include "simulator/placement.hpp"
 #include "simulator/resting_bodies.hpp"
+#include "simulator/sample_hash.hpp"
 #include "support/expect_error.hpp"
 #include "support/scene_count.hpp"
 
@@ -212,15 +212,15 @@ TEST_CASE("placement: what cannot be meant is refused") {
 TEST_CASE("counted random numbers are even, and differ with every count") {
   double sum = 0, squares = 0;
   for (std::uint64_t i = 0; i < 10000; ++i) {
-    const double u = counted_random({7, i, 3});
+    const double u = to_unit(sample_hash(7, i, 3));
     REQUIRE(u >= 0);
     REQUIRE(u < 1);
     sum += u, squares += u * u;
   }
   CHECK(sum / 10000 == doctest::Approx(1.0 / 2).epsilon(0.02));
   CHECK(squares / 10000 == doctest::Approx(1.0 / 3).epsilon(0.03));
-  CHECK(counted_random({1, 2}) != counted_random({2, 1}));
-  CHECK(counted_random({1, 0}) != counted_random({1, 0, 0}));
+  CHECK(to_unit(sample_hash(1, 2)) != to_unit(sample_hash(2, 1)));
+  CHECK(to_unit(sample_hash(1, 0)) != to_unit(sample_hash(1, 0, 0)));
 }
 
 }  // namespace vantage::test
