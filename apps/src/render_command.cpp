@@ -1,8 +1,5 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
-#include <tbb/global_control.h>
-#include <tbb/info.h>
-#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <memory>
@@ -14,6 +11,7 @@
 #include "simulated_cell.hpp"
 #include "simulator/color_sensor.hpp"
 #include "simulator/contact_sheet.hpp"
+#include "workers.hpp"
 
 namespace vantage {
 namespace {
@@ -96,11 +94,8 @@ std::optional<ColorImage> single(const RenderArguments& arguments, const StopTok
 ExitCode render(const RenderArguments& arguments) {
   const StopToken stop;
   const Interrupt interrupt({stop});
-  const int threads = arguments.threads > 0 ? arguments.threads : tbb::info::default_concurrency();
-  const tbb::global_control allow(tbb::global_control::max_allowed_parallelism,
-                                  std::size_t(threads));
-  tbb::task_arena arena(threads);
-  const std::optional<ColorImage> image = arena.execute([&] {
+  Workers workers(arguments.threads);
+  const std::optional<ColorImage> image = workers.execute([&] {
     const ProgressLine progress("rendering", stop);
     return arguments.contact_sheet ? sheet(arguments, stop) : single(arguments, stop);
   });

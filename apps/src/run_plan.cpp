@@ -1,8 +1,6 @@
 #include "run_plan.hpp"
 
 #include <spdlog/spdlog.h>
-#include <tbb/global_control.h>
-#include <tbb/task_arena.h>
 
 #include <iostream>
 #include <optional>
@@ -15,6 +13,7 @@
 #include "vantage/raycore/mesh_io.hpp"
 #include "vantage/volume/grid_files.hpp"
 #include "vantage/volume/smooth_surface.hpp"
+#include "workers.hpp"
 
 namespace vantage {
 namespace {
@@ -74,14 +73,11 @@ ExitCode exit_code_of(const Plan& plan) {
 ExitCode run_plan(const WorldModel& world, const PlanRequest& request, PlanRecord record,
                   const OutputOptions& output, const RunOptions& run,
                   StopToken::Clock::time_point start) {
-  const int threads = run.threads > 0 ? run.threads : tbb::info::default_concurrency();
-  const tbb::global_control allow(tbb::global_control::max_allowed_parallelism,
-                                  std::size_t(threads));
-  tbb::task_arena arena(threads);
+  Workers workers(run.threads);
   if (!output.folder.empty()) make_folder(output.folder);
 
   std::optional<ShadowRegions> regions;
-  const Plan plan = arena.execute([&] {
+  const Plan plan = workers.execute([&] {
     const ProgressLine progress("planning", run.stop);
     Plan result = plan_next_view(world, request, run.stop);
     if (result.classified != nullptr) regions.emplace(*result.classified);
@@ -98,7 +94,7 @@ ExitCode run_plan(const WorldModel& world, const PlanRequest& request, PlanRecor
   }
   std::cout << (output.json ? json : summary_of(plan, found)) << std::flush;
   if (regions) {
-    arena.execute([&] { write_extras(plan, *regions, world, output, run.drawing); });
+    workers.execute([&] { write_extras(plan, *regions, world, output, run.drawing); });
   }
   if (run.drawing.stop_requested()) return ExitCode::cancelled;
   return exit_code_of(plan);

@@ -1,8 +1,5 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
-#include <tbb/global_control.h>
-#include <tbb/info.h>
-#include <tbb/task_arena.h>
 
 #include <iostream>
 #include <memory>
@@ -13,6 +10,7 @@
 #include "progress_line.hpp"
 #include "simulated_dataset.hpp"
 #include "simulation_record.hpp"
+#include "workers.hpp"
 
 namespace vantage {
 namespace {
@@ -110,10 +108,7 @@ RecordingOptions recording_of(const SimulateArguments& a, const Workcell& workce
 ExitCode simulate(const SimulateArguments& arguments) {
   const StopToken stop;
   const Interrupt interrupt({stop});
-  const int threads = arguments.threads > 0 ? arguments.threads : tbb::info::default_concurrency();
-  const tbb::global_control allow(tbb::global_control::max_allowed_parallelism,
-                                  std::size_t(threads));
-  tbb::task_arena arena(threads);
+  Workers workers(arguments.threads);
 
   Workcell workcell = load_workcell(arguments.workcell);
   SimulationSettings settings = arguments.settings;
@@ -121,7 +116,7 @@ ExitCode simulate(const SimulateArguments& arguments) {
   prepare_objects(workcell, settings);
   check_recording(workcell, settings.recording);
   claim_folder(arguments.folder);
-  const bool complete = arena.execute([&] {
+  const bool complete = workers.execute([&] {
     const ProgressLine progress("recording", stop);
     const SimulatedCell cell = simulated_cell(workcell);
     const auto json =

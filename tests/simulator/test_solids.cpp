@@ -25,8 +25,9 @@ double polygon_area(double radius, int corners) {
   return 0.5 * corners * radius * radius * std::sin(2 * kPi / corners);
 }
 
-void check_volume(const TriangleMesh& mesh, double volume) {
-  CHECK(volume_m3(mesh) == doctest::Approx(volume).epsilon(1e-6));
+/// Whether the volume is that of the formula, to what single-precision corners allow.
+bool has_volume(const TriangleMesh& mesh, double volume) {
+  return std::fabs(volume_m3(mesh) - volume) < 1e-5 * volume;
 }
 
 /// Compares the mesh with a formula for what is inside, at points in and around `size`.
@@ -52,7 +53,7 @@ TEST_CASE("a box") {
   const Vector3d size(0.1, 0.2, 0.3);
   const TriangleMesh box = box_solid(size);
   check_solid(box, size);
-  check_volume(box, 0.006);
+  CHECK(has_volume(box, 0.006));
   CHECK(box.triangles().size() == 12);
   check_inside(box, size, [&](const Vector3d& p) { return in_box(p, -size / 2, size / 2); });
 }
@@ -63,7 +64,7 @@ TEST_CASE("a cylinder") {
     const TriangleMesh cylinder = cylinder_solid(0.03, 0.1, segments);
     const double y = segments == 6 ? 0.03 * std::sqrt(3) : 0.06;  // hexagons are narrower
     check_solid(cylinder, {0.06, y, 0.1});
-    check_volume(cylinder, 0.1 * polygon_area(0.03, segments));
+    CHECK(has_volume(cylinder, 0.1 * polygon_area(0.03, segments)));
   }
   CHECK(volume_m3(cylinder_solid(0.03, 0.1)) ==
         doctest::Approx(kPi * 0.03 * 0.03 * 0.1).epsilon(0.003));
@@ -83,14 +84,14 @@ TEST_CASE("a sphere: all its corners lie on it, and it bulges everywhere") {
     REQUIRE((b - a).cross(c - a).normalized().dot(a) > 0.0498);
   }
   check_solid(sphere_solid(2, 4), {4, 4, 4});
-  check_volume(sphere_solid(2, 4), 8 * 8.0 / 6);  // an octahedron
+  CHECK(has_volume(sphere_solid(2, 4), 8 * 8.0 / 6));  // an octahedron
 }
 
 TEST_CASE("a wedge rises along x") {
   const Vector3d size(0.2, 0.1, 0.05);
   const TriangleMesh wedge = wedge_solid(size);
   check_solid(wedge, size);
-  check_volume(wedge, size.prod() / 2);
+  CHECK(has_volume(wedge, size.prod() / 2));
   check_inside(wedge, size, [&](const Vector3d& p) {
     return in_box(p, -size / 2, size / 2) && p.z() < 0.25 * p.x();
   });
@@ -99,7 +100,7 @@ TEST_CASE("a wedge rises along x") {
 TEST_CASE("a cup is open at the top") {
   const TriangleMesh cup = cup_solid(0.04, 0.1, 0.003);
   check_solid(cup, {0.08, 0.08, 0.1});
-  check_volume(cup, 0.1 * polygon_area(0.04, 48) - 0.097 * polygon_area(0.037, 48));
+  CHECK(has_volume(cup, 0.1 * polygon_area(0.04, 48) - 0.097 * polygon_area(0.037, 48)));
   CHECK(winding(cup, {0, 0, -0.0485}) == 1);     // in the bottom
   CHECK(winding(cup, {0, 0, -0.046}) == 0);      // above it
   CHECK(winding(cup, {0.0385, 0, 0.049}) == 1);  // in the wall
@@ -109,7 +110,7 @@ TEST_CASE("a bracket is a floor plate and a back plate") {
   const Vector3d size(0.08, 0.05, 0.06);
   const TriangleMesh bracket = bracket_solid(size, 0.01);
   check_solid(bracket, size);
-  check_volume(bracket, 0.05 * (0.08 * 0.01 + 0.05 * 0.01));
+  CHECK(has_volume(bracket, 0.05 * (0.08 * 0.01 + 0.05 * 0.01)));
   check_inside(bracket, size, [&](const Vector3d& p) {
     return in_box(p, -size / 2, size / 2) && (p.z() < -0.02 || p.x() < -0.03);
   });
@@ -119,7 +120,7 @@ TEST_CASE("a bin has four walls and a bottom") {
   const Vector3d size(0.4, 0.3, 0.2);
   const TriangleMesh bin = bin_solid(size, 0.01);
   check_solid(bin, size);
-  check_volume(bin, size.prod() - 0.38 * 0.28 * 0.19);
+  CHECK(has_volume(bin, size.prod() - 0.38 * 0.28 * 0.19));
   check_inside(bin, size, [&](const Vector3d& p) {
     return in_box(p, -size / 2, size / 2) && !in_box(p, {-0.19, -0.14, -0.09}, {0.19, 0.14, 0.1});
   });
