@@ -1,16 +1,14 @@
 // OpenCV finds the markers in simulated photographs as it does in real ones.
 
 #include <doctest/doctest.h>
-#include <fmt/format.h>
 
 #include <Eigen/Geometry>
-#include <algorithm>
 #include <numbers>
 #include <vector>
 
 #include "simulator/color_scenes.hpp"
 #include "simulator/marker.hpp"
-#include "support/detect_markers.hpp"
+#include "support/marker_tally.hpp"
 
 namespace vantage::test {
 namespace {
@@ -64,87 +62,19 @@ struct MarkedScene {
   }
 };
 
-/// Whether a grid of points on the marker, corners included, is in the image and seen.
-bool in_full_view(const Marker& marker, const Pose& T_world_cube, const Scene& scene,
-                  const PinholeCamera& camera) {
-  constexpr int kGrid = 12;
-  constexpr double kBorder = 5;  // pixels; OpenCV leaves out what is nearer than 3
-  for (int i = 0; i <= kGrid; ++i) {
-    for (int j = 0; j <= kGrid; ++j) {
-      const Eigen::Vector3d p =
-          T_world_cube *
-          (marker.T_object_marker * Eigen::Vector3d(kMarker * (double(i) / kGrid - 0.5),
-                                                    kMarker * (double(j) / kGrid - 0.5), 1e-4));
-      const auto at = camera.project(p);
-      if (!at || at->u < kBorder || at->u > camera.intrinsics().width - kBorder ||
-          at->v < kBorder || at->v > camera.intrinsics().height - kBorder) {
-        return false;
-      }
-      if (scene.occluded(p.cast<float>(), camera.centre().cast<float>())) return false;
-    }
-  }
-  return true;
-}
-
-/// Where the marker's corners are on the image, if it has to be found: larger than 25 px, less than
-/// 60 degrees off axis and in full view.
-std::optional<std::array<Eigen::Vector2d, 4>> expected(const Marker& marker,
-                                                       const Pose& T_world_cube, const Scene& scene,
-                                                       const PinholeCamera& camera) {
-  const Pose T_world_marker = T_world_cube * marker.T_object_marker;
-  const Eigen::Vector3d to_camera = camera.centre() - T_world_marker.translation();
-  const double cosine = to_camera.normalized().dot(T_world_marker.rotation().col(2));
-  if (cosine < std::cos(std::numbers::pi / 3)) return std::nullopt;
-  if (!in_full_view(marker, T_world_cube, scene, camera)) return std::nullopt;
-  std::array<Eigen::Vector2d, 4> corners;
-  for (std::size_t c = 0; c < 4; ++c) {
-    const auto at = camera.project(T_world_cube * marker.corners()[c]);
-    corners[c] = {at->u, at->v};
-  }
-  for (std::size_t c = 0; c < 4; ++c) {
-    if ((corners[c] - corners[(c + 1) % 4]).norm() <= 25) return std::nullopt;
-  }
-  return corners;
-}
-
-struct Tally {
-  int expected = 0;
-  std::vector<double> errors;  ///< of corners, pixels
-
-  std::string summary() {
-    std::sort(errors.begin(), errors.end());
-    return fmt::format("{} markers; error of corners: median {:.3f} px, 95 % {:.3f} px, max {:.3f}",
-                       expected, errors[errors.size() / 2], errors[errors.size() * 95 / 100],
-                       errors.back());
-  }
-};
-
 /// Looks for the markers of a scene in a photograph of it.
 void look_for(const MarkedScene& marked, const SimulatedScene& scene, const PinholeCamera& camera,
-              const ColorSensor& sensor, std::uint64_t seed, Tally& tally) {
+              const ColorSensor& sensor, std::uint64_t seed, MarkerTally& tally) {
   const ColorImage image = *simulate_color(scene, {}, camera, sensor, seed);
   const std::vector<DetectedMarker> found = detect_markers(image, "4X4_50");
+  CAPTURE(seed);
   for (const auto& [marker, pose] : marked.markers) {
-    const auto corners = expected(marker, pose, scene.rays(), camera);
-    if (!corners) continue;
-    ++tally.expected;
-    CAPTURE(seed);
-    CAPTURE(marker.id);
-    const auto hit = std::find_if(found.begin(), found.end(),
-                                  [&](const DetectedMarker& f) { return f.id == marker.id; });
-    CHECK(hit != found.end());
-    if (hit == found.end()) continue;
-    for (std::size_t c = 0; c < 4; ++c) {
-      const Eigen::Vector2d at(hit->corners[c].x, hit->corners[c].y);
-      tally.errors.push_back((at - (*corners)[c]).norm());
-      CAPTURE(c);
-      CHECK(tally.errors.back() < 0.5);
-    }
+    tally.look_for(marker, pose, scene.rays(), camera, found);
   }
 }
 
-Tally look_from_all_sides(const ColorSensor& sensor, std::uint32_t first_seed, int scenes) {
-  Tally tally;
+MarkerTally look_from_all_sides(const ColorSensor& sensor, std::uint32_t first_seed, int scenes) {
+  MarkerTally tally;
   for (std::uint32_t seed = first_seed; seed < first_seed + std::uint32_t(scenes); ++seed) {
     Random random(seed);
     const MarkedScene marked(random);
@@ -165,7 +95,7 @@ Tally look_from_all_sides(const ColorSensor& sensor, std::uint32_t first_seed, i
 }  // namespace
 
 TEST_CASE("OpenCV finds every marker that is large, in front and in full view") {
-  Tally tally = look_from_all_sides({}, 1, 3);
+  MarkerTally tally = look_from_all_sides({}, 1, 3);
   CHECK(tally.expected > 60);
   MESSAGE(tally.summary());
 }
@@ -175,7 +105,7 @@ TEST_CASE("OpenCV finds the markers through a sensor's noise and vignetting too"
   sensor.read_noise = 0.004;
   sensor.shot_noise = 2e-4;
   sensor.vignetting = 1;
-  Tally tally = look_from_all_sides(sensor, 20, 2);
+  MarkerTally tally = look_from_all_sides(sensor, 20, 2);
   CHECK(tally.expected > 40);
   MESSAGE(tally.summary());
 }

@@ -1,0 +1,73 @@
+// The shipped scenes' photographs serve for what they are made for: OpenCV finds their markers.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "simulated_cell.hpp"
+#include "simulator/color_sensor.hpp"
+#include "support/marker_tally.hpp"
+#include "support/scene_count.hpp"
+
+namespace vantage::test {
+namespace {
+
+const std::filesystem::path kShipped =
+    std::filesystem::path(__FILE__).parent_path() / "../../assets/workcells";
+
+struct PlacedMarker {
+  Marker marker;
+  Pose T_world_object;
+};
+
+/// All markers of the cell by their dictionary. Types are there once for each instance.
+std::map<std::string, std::vector<PlacedMarker>> markers_of(const Workcell& cell) {
+  std::map<std::string, std::vector<PlacedMarker>> markers;
+  for (const Marker& marker : cell.board->markers) {
+    markers[marker.dictionary].push_back({marker, {}});
+  }
+  for (const PlacedObject& object : cell.known_objects) {
+    for (const Marker& marker : object.type->markers) {
+      markers[marker.dictionary].push_back({marker, object.T_world_object});
+    }
+  }
+  return markers;
+}
+
+/// Looks for all markers of a scene in the pictures of its first cameras.
+void photograph(const std::string& name, std::uint32_t most_cameras, MarkerTally& tally) {
+  CAPTURE(name);
+  Workcell cell = load_workcell(kShipped / (name + ".yaml"));
+  place_random_objects(cell);
+  const SimulatedCell simulated = simulated_cell(cell);
+  const auto markers = markers_of(cell);
+  const std::size_t cameras = std::min<std::size_t>(cell.cameras.size(), most_cameras);
+  for (std::size_t i = 0; i < cameras; ++i) {
+    CAPTURE(cell.cameras[i].name);
+    const PinholeCamera& camera = cell.cameras[i].camera;
+    const ColorImage image = *simulate_color(simulated.scene, {}, camera, {}, i);
+    for (const auto& [dictionary, placed] : markers) {
+      const auto found = detect_markers(image, dictionary);
+      for (const PlacedMarker& p : placed) {
+        tally.look_for(p.marker, p.T_world_object, simulated.scene.rays(), camera, found);
+      }
+    }
+  }
+}
+
+}  // namespace
+
+TEST_CASE("OpenCV finds the markers of the shipped scenes, corners within half a pixel") {
+  MarkerTally tally;
+  const std::uint32_t most_cameras = scene_count(12) < 12 ? 1 : 12;
+  for (const char* name : {"wall", "corridor", "two_pillars", "foreign_objects", "castle",
+                           "clutter", "bin", "duck", "workcell"}) {
+    photograph(name, most_cameras, tally);
+  }
+  CHECK(tally.expected > (most_cameras == 1 ? 50 : 250));
+  MESSAGE(tally.summary());
+}
+
+}  // namespace vantage::test
