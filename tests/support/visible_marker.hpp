@@ -11,15 +11,18 @@
 
 namespace vantage::test {
 
-/// Whether a grid of points on the marker, corners included, is in the image and seen.
+/// Whether a grid of points on the marker and half a cell around it is in the image and seen:
+/// without white around it, a marker is none.
 inline bool in_full_view(const Marker& marker, const Pose& T_world_object, const Scene& scene,
                          const PinholeCamera& camera) {
-  constexpr int kGrid = 12;
+  constexpr int kGrid = 14;
+  const int cells = marker_cells(marker.dictionary, marker.id, "marker").side;
+  const double seen_m = marker.size_m * (cells + 1) / cells;
   constexpr double kBorder = 5;  // pixels; OpenCV leaves out what is nearer than 3
   for (int i = 0; i <= kGrid; ++i) {
     for (int j = 0; j <= kGrid; ++j) {
-      const double x = marker.size_m * (double(i) / kGrid - 0.5);
-      const double y = marker.size_m * (double(j) / kGrid - 0.5);
+      const double x = seen_m * (double(i) / kGrid - 0.5);
+      const double y = seen_m * (double(j) / kGrid - 0.5);
       const Eigen::Vector3d p =
           T_world_object * (marker.T_object_marker * Eigen::Vector3d(x, y, 1e-4));
       const auto at = camera.project(p);
