@@ -13,7 +13,7 @@
 namespace vantage {
 namespace {
 
-constexpr int kJpegQuality = 88;
+constexpr int kJpegQuality = 85;
 
 std::string jpeg_bytes(const ColorImage& image) {
   cv::Mat bgr(image.height, image.width, CV_8UC3);
