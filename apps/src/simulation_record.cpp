@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "resolved_workcell.hpp"
+#include "cell_bundle.hpp"
 #include "sha256.hpp"
 #include "simulator/ground_truth.hpp"
 #include "vantage/planner/plan.hpp"
@@ -120,7 +120,7 @@ Json write_simulation_record(const fs::path& workcell_file, const Workcell& work
                     {"foreign_objects", workcell.foreign_objects.size()},
                     {"true_volumes_m3", true_volumes_json(workcell, cell)},
                     {"inputs", inputs}};
-  write_file(folder / "workcell.yaml", resolved_workcell(workcell_file, workcell, folder));
+  write_cell_bundle(workcell_file, workcell, folder);
   write_file(folder / kRecordName, record.dump(1) + "\n");
   return record;
 }

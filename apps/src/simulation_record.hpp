@@ -30,8 +30,8 @@ void prepare_objects(Workcell& workcell, SimulationSettings& settings);
 /// @throws Error bad_input if something else is in it.
 void claim_folder(const std::filesystem::path& folder);
 
-/// Writes what else belongs to a simulated dataset: `workcell.yaml`, to be planned with, and
-/// `simulation.json`: settings, hashes of the inputs, and the cell's true volumes.
+/// Writes what else belongs to a simulated dataset: `workcell.yaml`, to be planned with, `cell/`,
+/// and `simulation.json`: settings, hashes of the inputs, and the cell's true volumes.
 /// @returns simulation.json.
 nlohmann::ordered_json write_simulation_record(const std::filesystem::path& workcell_file,
                                                const Workcell& workcell, const SimulatedCell& cell,

@@ -1,0 +1,121 @@
+#include "cell_bundle.hpp"
+
+#include <fmt/format.h>
+
+#include <map>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <string>
+
+#include "vantage/raycore/file.hpp"
+#include "yaml_document.hpp"
+
+namespace vantage {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+constexpr const char* kCopies = "cell";
+
+std::string yaml_text(const json& root) {
+  return "# Written by vantage simulate: the recorded cell.\n" + root.dump(1) + "\n";
+}
+
+/// Copies files into one folder, each once, and knows what they are called there.
+class Copies {
+ public:
+  explicit Copies(fs::path folder) : folder_(std::move(folder)) {}
+
+  /// @returns the copy's name.
+  std::string copy(const fs::path& file) {
+    const auto [entry, is_new] = names_.try_emplace(fs::weakly_canonical(file).string());
+    if (is_new) {
+      entry->second = free_name(file.filename().string());
+      const auto bytes = read_file(file);
+      write(entry->second, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+    }
+    return entry->second;
+  }
+
+  /// The same for a knowledge base, with the meshes that it names beside it.
+  std::string copy_knowledge(const fs::path& file) {
+    json root = read_yaml(file).root;
+    for (json& type : root["object_types"]) copy_mesh_of(type, file.parent_path(), "");
+    const std::string name = free_name(file.filename().string());
+    write(name, yaml_text(root));
+    return name;
+  }
+
+  /// Copies the mesh file of a type or an object, if it has one, and makes it name the copy.
+  void copy_mesh_of(json& object, const fs::path& folder, const std::string& prefix) {
+    const auto replace = [&](json& path) {
+      path = prefix + copy(folder / path.get<std::string>());
+    };
+    if (object.contains("mesh")) replace(object["mesh"]);
+    if (object.contains("shape") && object["shape"].contains("mesh")) {
+      replace(object["shape"]["mesh"]["file"]);
+    }
+  }
+
+ private:
+  /// Files of one name in different folders get numbers.
+  std::string free_name(const std::string& wanted) {
+    std::string name = wanted;
+    for (int i = 2; !taken_.insert(name).second; ++i) name = fmt::format("{}_{}", i, wanted);
+    return name;
+  }
+  void write(const std::string& name, std::string_view bytes) {
+    fs::create_directories(folder_);
+    write_file(folder_ / name, bytes);
+  }
+
+  fs::path folder_;
+  std::map<std::string, std::string> names_;  // file → the copy's name
+  std::set<std::string> taken_;
+};
+
+json object_json(const PlacedObject& object) {
+  const Eigen::Quaterniond q = object.T_world_object.quaternion();
+  const Eigen::Vector3d& t = object.T_world_object.translation();
+  const json rotation{{"w", q.w()}, {"x", q.x()}, {"y", q.y()}, {"z", q.z()}};
+  const json pose{{"translation_m", json::array({t.x(), t.y(), t.z()})}, {"rotation", rotation}};
+  return {{"name", object.name}, {"type", object.type->name}, {"pose", pose}};
+}
+
+/// Objects that were placed stand behind those of the file.
+void write_out_random_objects(const Workcell& workcell, json& root) {
+  root.erase("random_objects");
+  const std::size_t in_file = root.contains("known_objects") ? root["known_objects"].size() : 0;
+  for (std::size_t i = in_file; i < workcell.known_objects.size(); ++i) {
+    root["known_objects"].push_back(object_json(workcell.known_objects[i]));
+  }
+}
+
+}  // namespace
+
+void write_cell_bundle(const fs::path& file, const Workcell& workcell, const fs::path& folder) {
+  json root = read_yaml(file).root;
+  write_out_random_objects(workcell, root);
+  const fs::path from = file.parent_path();
+  const std::string prefix = std::string(kCopies) + "/";
+  Copies copies(folder / kCopies);
+  if (root.contains("knowledge_base")) {
+    json names = json::array();
+    const json& bases = root["knowledge_base"];
+    for (const json& base : bases.is_array() ? bases : json::array({bases})) {
+      names.push_back(prefix + copies.copy_knowledge(from / base.get<std::string>()));
+    }
+    root["knowledge_base"] = names;
+  }
+  if (root.contains("board") && root["board"].is_string()) {
+    root["board"] = prefix + copies.copy(from / root["board"].get<std::string>());
+  }
+  for (const char* list : {"static_structures", "known_objects", "foreign_objects"}) {
+    if (!root.contains(list)) continue;
+    for (json& object : root[list]) copies.copy_mesh_of(object, from, prefix);
+  }
+  write_file(folder / "workcell.yaml", yaml_text(root));
+}
+
+}  // namespace vantage
