@@ -18,6 +18,12 @@ using Json = nlohmann::ordered_json;
 
 constexpr double kMm = 1000;
 
+/// As exact as the model files are: whole nanometres. What is beyond is the corners' single
+/// precision.
+double millimetres(double metres) {
+  return std::round(metres * 1e9) / 1e6;
+}
+
 /// Row by row, translation in mm.
 Json matrix_json(const Eigen::Quaterniond& rotation) {
   Eigen::Matrix4d matrix = Eigen::Matrix4d::Identity();
@@ -52,15 +58,14 @@ Json info_json(const BopModel& model) {
   for (const Eigen::Vector3f& p : mesh.vertices()) {
     low = low.min(p.cast<double>().array()), high = high.max(p.cast<double>().array());
   }
-  low *= kMm, high *= kMm;
   const Eigen::Array3d size = high - low;
-  Json info{{"diameter", kMm * diameter_m(mesh)},
-            {"min_x", low.x()},
-            {"min_y", low.y()},
-            {"min_z", low.z()},
-            {"size_x", size.x()},
-            {"size_y", size.y()},
-            {"size_z", size.z()}};
+  Json info{{"diameter", millimetres(diameter_m(mesh))},
+            {"min_x", millimetres(low.x())},
+            {"min_y", millimetres(low.y())},
+            {"min_z", millimetres(low.z())},
+            {"size_x", millimetres(size.x())},
+            {"size_y", millimetres(size.y())},
+            {"size_z", millimetres(size.z())}};
   add_symmetries(model.symmetries, info);
   return info;
 }
