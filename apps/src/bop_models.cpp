@@ -58,14 +58,15 @@ Json info_json(const BopModel& model) {
   for (const Eigen::Vector3f& p : mesh.vertices()) {
     low = low.min(p.cast<double>().array()), high = high.max(p.cast<double>().array());
   }
+  low = low.unaryExpr(&millimetres), high = high.unaryExpr(&millimetres);
   const Eigen::Array3d size = high - low;
   Json info{{"diameter", millimetres(diameter_m(mesh))},
-            {"min_x", millimetres(low.x())},
-            {"min_y", millimetres(low.y())},
-            {"min_z", millimetres(low.z())},
-            {"size_x", millimetres(size.x())},
-            {"size_y", millimetres(size.y())},
-            {"size_z", millimetres(size.z())}};
+            {"min_x", low.x()},
+            {"min_y", low.y()},
+            {"min_z", low.z()},
+            {"size_x", size.x()},
+            {"size_y", size.y()},
+            {"size_z", size.z()}};
   add_symmetries(model.symmetries, info);
   return info;
 }
