@@ -61,13 +61,11 @@ std::optional<ColorImage> simulate_color(const SimulatedScene& scene, const Ligh
   const ColorPainter painter(scene, lighting, camera, sensor, seed);
   ColorImage image(camera.intrinsics().width, camera.intrinsics().height);
   const std::size_t bands = painter.band_count();
-  stop.expect(bands);
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, bands), [&](const auto& part) {
     const auto scratch = std::make_unique<BandScratch>();  // large: not for the stack
     for (std::size_t band = part.begin(); band < part.end(); ++band) {
       if (stop.stop_requested()) return;
       painter.paint(band, *scratch, image);
-      stop.advance(1);
     }
   });
   if (stop.stop_requested()) return std::nullopt;

@@ -57,7 +57,8 @@ struct ColorSensor {
 /// Samples hash (seed, pixel, sample): the same call gives the same bytes at any number of threads.
 /// The camera's depth range is ignored. Runs in the caller's task arena; `stop` counts bands of
 /// four rows.
-/// @returns nothing if `stop` asked to stop.
+/// @returns nothing if `stop` asked to stop. It is told of no progress: its owner counts
+/// photographs.
 /// @throws Error bad_input for a setting outside the range that is stated with it, a distortion
 /// that cannot be undone inside the image (it folds over), a body's colour outside 0 to 1, and a
 /// texture without texels or with coordinates that are not finite.

@@ -41,6 +41,7 @@ void add_random_options(CLI::App& verb, SimulateArguments& a) {
 void add_color_options(CLI::App& verb, SimulateArguments& a) {
   ColorSensor& color = a.settings.recording.color;
   verb.add_option("--samples", color.samples_per_pixel, "Rays through each pixel of a colour image")
+      ->check(CLI::Range(1, 4096))
       ->capture_default_str();
   verb.add_option("--distortion", a.distortion,
                   "K1 K2 P1 P2 K3: the colour lens' Brown-Conrady distortion; none without it")
@@ -56,8 +57,6 @@ void add_color_options(CLI::App& verb, SimulateArguments& a) {
 
 void add_depth_options(CLI::App& verb, SimulateArguments& a) {
   StereoSensor& depth = a.settings.recording.depth;
-  verb.add_flag("--ideal-depth", a.ideal_depth,
-                "Measure every surface exactly: none of the effects below");
   verb.add_option(
       "--depth-noise-px", a.noise_px,
       "Noise of the disparity, pixels; 0: none. Without it, the workcell's volume.noise");
@@ -80,6 +79,15 @@ void add_depth_options(CLI::App& verb, SimulateArguments& a) {
                   "Share of the pixels beside a jump in depth that float in between")
       ->check(CLI::Range(0.0, 1.0))
       ->capture_default_str();
+}
+
+void add_depth_format_options(CLI::App& verb, SimulateArguments& a) {
+  CLI::Option* ideal = verb.add_flag("--ideal-depth", a.ideal_depth,
+                                     "Measure every surface exactly: none of the effects above");
+  for (const char* effect : {"--depth-noise-px", "--disparity-step-px", "--max-disparity-px",
+                             "--max-incidence-deg", "--border-px", "--flying-pixels"}) {
+    ideal->excludes(effect);
+  }
   verb.add_option("--depth-scale-mm", a.settings.recording.depth_scale_mm,
                   "Millimetres a count of the depth images")
       ->check(CLI::Range(1e-3, 100.0))
@@ -144,6 +152,7 @@ void add_simulate_command(CLI::App& app, Action& action) {
   add_random_options(*verb, *arguments);
   add_color_options(*verb, *arguments);
   add_depth_options(*verb, *arguments);
+  add_depth_format_options(*verb, *arguments);
   verb->add_flag("--json", arguments->json, "Print simulation.json on stdout instead of a summary");
   verb->add_option("--threads", arguments->threads, "Threads to use (0: all)")
       ->check(CLI::Range(0, 1024));

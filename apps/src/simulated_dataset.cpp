@@ -5,6 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "simulator/lens.hpp"
 #include "simulator/sample_hash.hpp"
 #include "vantage/raycore/error.hpp"
 #include "vantage/raycore/file.hpp"
@@ -70,6 +71,17 @@ std::string calibration_yaml(const Intrinsics& k, const Distortion& d) {
       k.width, k.height, k.fx, k.cx, k.fy, k.cy, d.k1, d.k2, d.p1, d.p2, d.k3);
 }
 
+void check_depth_range(const CellCamera& camera, double depth_scale_mm) {
+  const double most = 65535 * depth_scale_mm / kMm, far_m = camera.camera.range().far_m;
+  if (far_m <= most) return;
+  throw bad_input(
+      "--depth-scale-mm",
+      fmt::format("{} mm a count reach {} m in 16 bits, but camera {} measures up to {} m; "
+                  "use {} or more, or a nearer sensor.depth_range_m",
+                  depth_scale_mm, most, camera.name, far_m,
+                  std::ceil(far_m * kMm / 65535 * 100) / 100));
+}
+
 }  // namespace
 
 void check_recording(const Workcell& workcell, const RecordingOptions& options) {
@@ -78,14 +90,10 @@ void check_recording(const Workcell& workcell, const RecordingOptions& options) 
                     "there are none; simulating needs at least one, e.g. \"- {name: front, eye_m: "
                     "[0, -0.7, 0.4], target_m: [0, 0, 0]}\"");
   }
+  options.depth.check("depth sensor");
   for (const CellCamera& camera : workcell.cameras) {
-    const double most = 65535 * options.depth_scale_mm / kMm, far_m = camera.camera.range().far_m;
-    if (far_m <= most) continue;
-    throw bad_input("--depth-scale-mm",
-                    fmt::format("{} mm a count reach {} m in 16 bits, but camera {} measures up to "
-                                "{} m; use {} or more, or a nearer sensor.depth_range_m",
-                                options.depth_scale_mm, most, camera.name, far_m,
-                                std::ceil(far_m * kMm / 65535 * 100) / 100));
+    check_depth_range(camera, options.depth_scale_mm);
+    const Lens lens(camera.camera.intrinsics(), options.color.distortion);  // or why it is none
   }
 }
 

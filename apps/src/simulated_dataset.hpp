@@ -20,8 +20,8 @@ struct RecordingOptions {
   std::uint64_t seed = 0;       ///< of all noise; image i uses a hash of it and i
 };
 
-/// @throws Error bad_input for a workcell without cameras, and one whose depth range does not fit
-/// 16 bits.
+/// @throws Error bad_input for a workcell without cameras, one whose depth range does not fit 16
+/// bits, and as `StereoSensor::check` and `Lens` do.
 void check_recording(const Workcell& workcell, const RecordingOptions& options);
 
 /// Records the cell with all of its cameras as a BOP scene folder: `rgb/` and `depth/` with image i

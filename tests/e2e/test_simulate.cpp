@@ -138,6 +138,15 @@ TEST_CASE("what cannot be simulated is refused with the reason, and leaves nothi
   CHECK(blind.err.find("cell.yaml: cameras: there are none") != std::string::npos);
   CHECK_FALSE(fs::exists(folder / "data"));
 
+  const auto folded = simulate("duck", folder / "data", "--distortion -2 0 0 0 0");
+  CHECK(folded.exit_code == 3);
+  CHECK_FALSE(fs::exists(folder / "data"));
+  const auto step = simulate("duck", folder / "data", "--disparity-step-px -1");
+  CHECK(step.exit_code == 3);
+  CHECK(step.err.find("depth sensor.disparity_step_px: found -1") != std::string::npos);
+  CHECK_FALSE(fs::exists(folder / "data"));
+  CHECK(simulate("duck", folder / "data", "--ideal-depth --border-px 4").exit_code == 2);
+
   const auto coarse = simulate("duck", folder / "data", "--depth-scale-mm 0.01");
   CHECK(coarse.exit_code == 3);
   CHECK(coarse.err.find("--depth-scale-mm") != std::string::npos);
