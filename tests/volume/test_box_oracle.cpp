@@ -41,9 +41,9 @@ void compare_with_oracle(const test::BoxWorld& world, int every, Tally& tally) {
 void expect_enough(const Tally& tally) {
   MESSAGE(tally.compared << " voxels compared, " << tally.close_calls << " too close to call");
   CHECK(tally.close_calls * 50 < tally.compared);
-  CHECK(tally.unseen > 300);
+  CHECK(tally.unseen >= test::enough(300));
   for (const VoxelState state : {VoxelState::free, VoxelState::occupied, VoxelState::shadow}) {
-    CHECK(tally.states[std::size_t(state)] > 1000);
+    CHECK(tally.states[std::size_t(state)] >= test::enough(1000));
   }
 }
 
