@@ -21,6 +21,7 @@ endif()
 add_library(vantage_options INTERFACE)
 target_compile_options(vantage_options INTERFACE
   -ffp-contract=off  # a fused multiply-add here and not there would make results depend on the kernel
+  -fno-math-errno    # nobody reads it, and for its sake square roots would be taken one by one
   -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual
   $<$<BOOL:${VANTAGE_WERROR}>:-Werror>)
 if(VANTAGE_SANITIZE)

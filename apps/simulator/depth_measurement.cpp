@@ -11,7 +11,8 @@
 namespace vantage::detail {
 namespace {
 
-constexpr std::size_t kBlock = 256;
+constexpr std::size_t kBlock = 128;
+constexpr std::size_t kTailBlock = 32;  // nine of ten have no number that far out
 constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
 
 /// Standard normal numbers, one for each pixel.
@@ -24,8 +25,13 @@ void fill_noise(std::uint32_t first_pixel, std::uint32_t key0, std::uint32_t key
     w[i] = -log_of((1 - x[i]) * (1 + x[i]));
     noise[i] = central_quantile(x[i], w[i]);
   }
-  for (std::size_t i = 0; i < count; ++i) {
-    if (w[i] >= kCentral) noise[i] = tail_quantile(x[i], std::sqrt(w[i]));
+  for (std::size_t i = 0; i < count; i += kTailBlock) {
+    const std::size_t end = std::min(i + kTailBlock, count);
+    int tails = 0;
+    for (std::size_t k = i; k < end; ++k) tails |= int(w[k] >= kCentral);
+    for (std::size_t k = i; tails != 0 && k < end; ++k) {
+      if (w[k] >= kCentral) noise[k] = tail_quantile(x[k], std::sqrt(w[k]));
+    }
   }
 }
 
@@ -33,6 +39,13 @@ void fill_noise(std::uint32_t first_pixel, std::uint32_t key0, std::uint32_t key
 [[gnu::always_inline]] inline float rounded(float x) {
   constexpr float kShift = 0x1.8p23f;
   return (x + kShift) - kShift;
+}
+
+VANTAGE_MULTIVERSION
+bool any_known(const float* metres, std::size_t count) {
+  int known = 0;
+  for (std::size_t i = 0; i < count; ++i) known |= int(metres[i] == metres[i]);
+  return known != 0;
 }
 
 VANTAGE_MULTIVERSION
@@ -73,6 +86,7 @@ void DepthMeasurement::measure(float* metres, std::size_t count, std::uint32_t f
   float noise[kBlock] = {};
   for (std::size_t i = 0; i < count; i += kBlock) {
     const std::size_t block = std::min(kBlock, count - i);
+    if (!any_known(metres + i, block)) continue;
     if (numbers_.sigma_px > 0) {
       fill_noise(first_pixel + std::uint32_t(i), numbers_.key0, numbers_.key1, block, noise);
     }

@@ -55,9 +55,30 @@ void judge_hits(const Numbers& n, const RayArrays& r, float* __restrict depth, f
   }
 }
 
+/// Moves the points of those tiles where anything is found to the front.
+/// @returns how many tiles these are; `tiles` gets their numbers.
 VANTAGE_MULTIVERSION
-void remove_blocked(const std::uint8_t* __restrict blocked, float* __restrict depth) {
-  for (std::size_t i = 0; i < kChunkRays; ++i) depth[i] = blocked[i] ? kNaN : depth[i];
+std::size_t keep_found_tiles(const float* __restrict depth, float* __restrict x,
+                             float* __restrict y, float* __restrict z,
+                             std::uint8_t* __restrict tiles) {
+  std::size_t kept = 0;
+  for (std::size_t tile = 0; tile < kChunkTiles; ++tile) {
+    int found = 0;
+    for (std::size_t i = 16 * tile; i < 16 * tile + 16; ++i) found |= int(depth[i] == depth[i]);
+    if (found == 0) continue;
+    for (float* p : {x, y, z}) std::copy_n(p + 16 * tile, 16, p + 16 * kept);
+    tiles[kept++] = std::uint8_t(tile);
+  }
+  return kept;
+}
+
+VANTAGE_MULTIVERSION
+void remove_blocked(const std::uint8_t* __restrict blocked, const std::uint8_t* __restrict tiles,
+                    std::size_t count, float* __restrict depth) {
+  for (std::size_t k = 0; k < count; ++k) {
+    float* z = depth + 16 * tiles[k];
+    for (std::size_t i = 0; i < 16; ++i) z[i] = blocked[16 * k + i] ? kNaN : z[i];
+  }
 }
 
 Numbers numbers_of(const PinholeCamera& camera, const StereoSensor& sensor) {
@@ -100,9 +121,10 @@ void StereoView::fill_band(int band, Scratch& scratch, float* metres) const {
   }
 }
 
-void StereoView::hide_from(const Eigen::Vector3f& origin, Scratch& s) const {
-  scene_.occluded(s.from, origin, s.blocked, RayOrder::coherent);
-  remove_blocked(s.blocked.data(), s.depth.data());
+void StereoView::hide_from(const Eigen::Vector3f& origin, std::size_t tiles, Scratch& s) const {
+  scene_.occluded(s.from.view().part(0, 16 * tiles), origin, {s.blocked.data(), 16 * tiles},
+                  RayOrder::coherent);
+  remove_blocked(s.blocked.data(), s.tiles.data(), tiles, s.depth.data());
 }
 
 void StereoView::fill_chunk(int first_u, int first_v, Scratch& s, float* metres) const {
@@ -115,18 +137,22 @@ void StereoView::fill_chunk(int first_u, int first_v, Scratch& s, float* metres)
              {s.u.data(), s.v.data(), d.x.data(), d.y.data(), d.z.data(), s.hits.t.data(),
               normal.x.data(), normal.y.data(), normal.z.data()},
              s.depth.data(), from.x.data(), from.y.data(), from.z.data());
-  const auto any = [&] {
-    return std::any_of(s.depth.begin(), s.depth.end(), [](float z) { return z == z; });
-  };
-  if (second_imager_ && any()) hide_from(second_centre_, s);
-  if (projector_ && any()) hide_from(projector_centre_, s);
+  const std::size_t tiles =
+      keep_found_tiles(s.depth.data(), from.x.data(), from.y.data(), from.z.data(), s.tiles.data());
+  if (second_imager_) hide_from(second_centre_, tiles, s);
+  if (projector_) hide_from(projector_centre_, tiles, s);
+  lay_out(first_u, first_v, s.depth.data(), metres);
+}
 
+/// Tile by tile → row by row.
+void StereoView::lay_out(int first_u, int first_v, const float* depth, float* metres) const {
   const int rows = std::min(kBandRows, height_ - first_v);
   const int columns = std::min(4 * kChunkTiles, width_ - first_u);
   for (int row = 0; row < rows; ++row) {
     float* out = metres + std::size_t(first_v + row) * std::size_t(width_) + first_u;
-    for (int column = 0; column < columns; ++column) {
-      out[column] = s.depth[std::size_t(column / 4 * 16 + row * 4 + column % 4)];
+    const float* in = depth + 4 * row;
+    for (int column = 0; column < columns; column += 4, in += 16) {
+      std::copy_n(in, std::min(4, columns - column), out + column);
     }
   }
 }

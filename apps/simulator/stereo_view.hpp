@@ -36,7 +36,8 @@ class StereoView {
 
  private:
   void fill_chunk(int first_u, int first_v, Scratch& scratch, float* metres) const;
-  void hide_from(const Eigen::Vector3f& origin, Scratch& scratch) const;
+  void lay_out(int first_u, int first_v, const float* depth, float* metres) const;
+  void hide_from(const Eigen::Vector3f& origin, std::size_t tiles, Scratch& scratch) const;
 
   const Scene& scene_;
   int width_, height_;
@@ -58,6 +59,7 @@ class StereoView::Scratch {
   Points directions, from;
   Hits hits;
   std::array<std::uint8_t, kChunkRays> blocked;
+  std::array<std::uint8_t, kChunkTiles> tiles;  ///< in which anything is found
 };
 
 }  // namespace vantage::detail

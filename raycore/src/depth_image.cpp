@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "vantage/raycore/error.hpp"
+#include "vantage/raycore/multiversion.hpp"
 
 namespace vantage {
 namespace {
@@ -20,6 +21,29 @@ std::size_t checked_count(int width, int height, std::string_view where) {
   return std::size_t(width) * std::size_t(height);
 }
 
+/// Zero and infinity become unknown.
+/// @returns whether no depth is negative.
+VANTAGE_MULTIVERSION
+bool mark_unknown(float* metres, std::size_t size) {
+  int negative = 0;
+  for (std::size_t i = 0; i < size; ++i) {
+    const float z = metres[i];
+    negative |= int(z < 0);
+    const bool known = (z != 0) & (std::fabs(z) <= std::numeric_limits<float>::max());
+    metres[i] = known ? z : DepthImage::kUnknown;
+  }
+  return negative == 0;
+}
+
+[[noreturn]] void refuse_negative(std::span<const float> metres, int width,
+                                  std::string_view where) {
+  std::size_t i = 0;
+  while (!(metres[i] < 0)) ++i;
+  throw bad_input(std::string(where),
+                  fmt::format("pixel ({}, {}) has the depth {} m; expected 0 or more",
+                              i % std::size_t(width), i / std::size_t(width), metres[i]));
+}
+
 }  // namespace
 
 DepthImage::DepthImage(int width, int height)
@@ -31,14 +55,7 @@ DepthImage::DepthImage(int width, int height, std::vector<float> metres, std::st
     throw bad_input(std::string(where),
                     fmt::format("{} depths for {}×{} pixels", metres_.size(), width, height));
   }
-  for (std::size_t i = 0; i < metres_.size(); ++i) {
-    if (metres_[i] < 0) {
-      throw bad_input(std::string(where),
-                      fmt::format("pixel ({}, {}) has the depth {} m; expected 0 or more",
-                                  i % std::size_t(width), i / std::size_t(width), metres_[i]));
-    }
-    if (metres_[i] == 0 || std::isinf(metres_[i])) metres_[i] = kUnknown;
-  }
+  if (!mark_unknown(metres_.data(), metres_.size())) refuse_negative(metres_, width, where);
 }
 
 DepthImage DepthImage::from_counts(const CountImage& counts, double depth_scale_mm,
