@@ -69,6 +69,20 @@ class Names {
   std::map<std::string, int> counts_;
 };
 
+std::vector<Pose> poses_of(const std::vector<std::shared_ptr<const TriangleMesh>>& meshes,
+                           const Workcell& workcell) {
+  const RandomObjects& random = *workcell.random_objects;
+  const Box floor = floor_of(workcell);
+  try {
+    return place_at_rest(
+        meshes, obstacles_of(workcell, floor.min().z()),
+        {.area = floor, .seed = random.seed, .upright_share = random.upright_share});
+  } catch (const Error& error) {  // knows of no file
+    const std::string file = workcell.files.empty() ? "" : workcell.files.front().string() + ": ";
+    throw Error(error.code(), file + "random_objects, " + error.where(), error.message());
+  }
+}
+
 }  // namespace
 
 void place_random_objects(Workcell& workcell) {
@@ -83,10 +97,7 @@ void place_random_objects(Workcell& workcell) {
     objects.push_back({names.next(type->name), type->shape, {}, type});
     meshes.emplace_back(type->shape, &type->shape->mesh);
   }
-  const Box floor = floor_of(workcell);
-  const std::vector<Pose> poses =
-      place_at_rest(meshes, obstacles_of(workcell, floor.min().z()),
-                    {.area = floor, .seed = random.seed, .upright_share = random.upright_share});
+  const std::vector<Pose> poses = poses_of(meshes, workcell);
   for (std::size_t i = 0; i < objects.size(); ++i) {
     objects[i].T_world_object = poses[i];
     workcell.known_objects.push_back(std::move(objects[i]));

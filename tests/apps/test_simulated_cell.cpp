@@ -164,7 +164,8 @@ TEST_CASE("without a board, random objects lie on the work area's floor") {
 TEST_CASE("random objects without room, or without anything to place") {
   TemporaryFolder folder;
   Workcell full = with_board(folder, "random_objects: {count: 60, types: [cube]}\n");
-  CHECK_THROWS_AS(place_random_objects(full), Error);
+  expect_bad_input(": random_objects, area", "of 60 bodies are placed",
+                   [&] { place_random_objects(full); });
   Workcell none = with_board(folder);
   place_random_objects(none);
   CHECK(none.known_objects.size() == 1);
