@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <limits>
 #include <string>
 #include <utility>
 
@@ -29,8 +30,8 @@ bool mark_unknown(float* metres, std::size_t size) {
   for (std::size_t i = 0; i < size; ++i) {
     const float z = metres[i];
     negative |= int(z < 0);
-    const bool known = (z != 0) & (std::fabs(z) <= std::numeric_limits<float>::max());
-    metres[i] = known ? z : DepthImage::kUnknown;
+    const bool unknown = (z == 0) | (z > std::numeric_limits<float>::max());
+    metres[i] = unknown ? DepthImage::kUnknown : z;
   }
   return negative == 0;
 }
