@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -82,6 +83,22 @@ void check_depth_range(const CellCamera& camera, double depth_scale_mm) {
                   std::ceil(far_m * kMm / 65535 * 100) / 100));
 }
 
+void write_calibrations(const std::vector<CellCamera>& cameras, const Distortion& distortion,
+                        const fs::path& folder) {
+  const Intrinsics& first = cameras.front().camera.intrinsics();
+  const bool all_alike = std::all_of(cameras.begin(), cameras.end(), [&](const CellCamera& c) {
+    return c.camera.intrinsics() == first;
+  });
+  if (all_alike) {
+    write_file(folder / "calibration.yml", calibration_yaml(first, distortion));
+    return;
+  }
+  for (std::size_t i = 0; i < cameras.size(); ++i) {
+    write_file(folder / fmt::format("calibration_{:06}.yml", i),
+               calibration_yaml(cameras[i].camera.intrinsics(), distortion));
+  }
+}
+
 }  // namespace
 
 void check_recording(const Workcell& workcell, const RecordingOptions& options) {
@@ -121,9 +138,7 @@ bool record(const Workcell& workcell, const SimulatedCell& cell, const Recording
     stop.advance(1);
   }
   if (!options.color.distortion.none()) {
-    write_file(
-        folder / "calibration.yml",
-        calibration_yaml(workcell.cameras.front().camera.intrinsics(), options.color.distortion));
+    write_calibrations(workcell.cameras, options.color.distortion, folder);
   }
   write_file(folder / "scene_gt.json", truth.dump(1) + "\n");
   write_file(folder / "scene_camera.json", cameras.dump(1) + "\n");

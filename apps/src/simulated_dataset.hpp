@@ -26,8 +26,9 @@ void check_recording(const Workcell& workcell, const RecordingOptions& options);
 
 /// Records the cell with all of its cameras as a BOP scene folder: `rgb/` and `depth/` with image i
 /// for the i-th camera, `models/`, `scene_gt.json` with the known objects, `scene_camera.json`; and
-/// `calibration.yml`, OpenCV's, if the colour camera's lens distorts. `scene_camera.json` comes
-/// last: a folder without it is no recording yet.
+/// `calibration.yml`, OpenCV's, if the colour camera's lens distorts (`calibration_%06d.yml` for
+/// each image, where intrinsics differ). `scene_camera.json` comes last: a folder without it is no
+/// recording yet.
 /// @returns whether it is complete: not if `stop` asked to stop.
 /// @throws Error as `check_recording`, the sensors and `write_file` do.
 bool record(const Workcell& workcell, const SimulatedCell& cell, const RecordingOptions& options,

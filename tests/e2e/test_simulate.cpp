@@ -111,6 +111,22 @@ TEST_CASE("a distorted recording has its calibration beside it") {
   REQUIRE(result.exit_code == 0);
   const std::string text = test::read_text(folder / "data/calibration.yml");
   CHECK(text.find("data: [ -0.1, 0.02, 0.001, 0, 0 ]") != std::string::npos);
+
+  const fs::path cell = folder.write(
+      "cell.yaml",
+      "work_area: {min_m: [-0.1, -0.1, 0], max_m: [0.1, 0.1, 0.1]}\n"
+      "known_objects: [{name: b, box: {min_m: [0, 0, 0], max_m: [0.1, 0.1, 0.1]}}]\n"
+      "cameras:\n"
+      "  - {name: a, eye_m: [1, 0, 0.5], target_m: [0, 0, 0]}\n"
+      "  - {name: b, eye_m: [0, 1, 0.5], target_m: [0, 0, 0],\n"
+      "     intrinsics: {width: 320, height: 240, fx: 300, fy: 300, cx: 160, cy: 120}}\n");
+  const auto two = run_vantage("simulate" + quoted(cell) +
+                               " --samples 1 --distortion 0.1 0 0 0 0 -o" + quoted(folder / "two"));
+  CAPTURE(two.err);
+  REQUIRE(two.exit_code == 0);
+  CHECK(test::read_text(folder / "two/calibration_000001.yml").find("image_width: 320") !=
+        std::string::npos);
+  CHECK_FALSE(fs::exists(folder / "two/calibration.yml"));
 }
 
 TEST_CASE("simulate writes over its own datasets, and over nothing else") {
