@@ -66,7 +66,9 @@ std::size_t keep_found_tiles(const float* __restrict depth, float* __restrict x,
     int found = 0;
     for (std::size_t i = 16 * tile; i < 16 * tile + 16; ++i) found |= int(depth[i] == depth[i]);
     if (found == 0) continue;
-    for (float* p : {x, y, z}) std::copy_n(p + 16 * tile, 16, p + 16 * kept);
+    if (kept != tile) {
+      for (float* p : {x, y, z}) std::copy_n(p + 16 * tile, 16, p + 16 * kept);
+    }
     tiles[kept++] = std::uint8_t(tile);
   }
   return kept;

@@ -235,6 +235,29 @@ TEST_CASE("the baseline casts the shadow that others publish: 33.5 mm in a bin o
   CHECK(std::fabs(most) < 2 * pixel);
 }
 
+TEST_CASE("the projector's shadow of a post is a hole where similar triangles say") {
+  SceneBuilder builder;
+  builder.add_box(Box({-9, -9, 1}, {9, 9, 1.1}));
+  builder.add_box(Box({-0.005, -9, 0.5}, {0.005, 9, 0.5001}));
+  const auto scene = builder.build();
+  StereoSensor sensor = StereoSensor::ideal();
+  sensor.projector = true;
+  sensor.projector_m = 0.08;
+  const PinholeCamera camera = camera_at({0, 0, 0});
+  const DepthImage depth = simulate_depth(*scene, camera, sensor, 0);
+  // On the wall: 0.08 + 2 (±0.005 - 0.08).
+  std::size_t holes = 0;
+  for (int u = 0; u < kCamera.width; ++u) {
+    const double x = camera.unproject(u, 240, 1).x();
+    if (std::fabs(x + 0.09) < 0.001 || std::fabs(x + 0.07) < 0.001) continue;
+    CAPTURE(x);
+    const bool shadow = x > -0.09 && x < -0.07;
+    CHECK(std::isnan(depth.at(u, 240)) == shadow);
+    holes += shadow;
+  }
+  CHECK(holes >= 10);
+}
+
 TEST_CASE("what is too slanted, too near, at the border or beyond the second image is a hole") {
   const PinholeCamera camera = camera_at({0, 0, 0});
   StereoSensor sensor = StereoSensor::ideal();
@@ -301,6 +324,7 @@ TEST_CASE("the stereo view equals that of single rays") {
     const auto scene = known_scene(boxes.model());
     StereoSensor sensor = StereoSensor::ideal();
     sensor.second_imager = sensor.projector = true;
+    sensor.projector_m = -0.06;  // between the imagers, its shadow would mostly be theirs
     sensor.max_incidence_rad = 1.2;
     sensor.border_px = 2;
     const test::PlainStereo plain{sensor.noise.baseline_m, sensor.projector_m, 1.2, 2};
