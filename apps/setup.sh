@@ -13,7 +13,7 @@ packages=(
   g++ cmake ninja-build
   libembree-dev libtbb-dev libeigen3-dev
   libopencv-dev libopencv-contrib-dev
-  libopenvdb-dev libboost-iostreams-dev
+  libopenvdb-dev libboost-iostreams-dev libceres-dev
   libassimp-dev libqhull-dev libpng-dev libssl-dev
   libcli11-dev nlohmann-json3-dev libyaml-cpp-dev libvalijson-dev
   libspdlog-dev libfmt-dev doctest-dev

@@ -25,3 +25,18 @@ find_package(OpenVDB REQUIRED COMPONENTS openvdb)
 
 # Debian 12 has the marker dictionaries in `aruco`, Debian 13 in `objdetect`.
 find_package(OpenCV REQUIRED COMPONENTS core imgcodecs imgproc calib3d objdetect aruco)
+
+# Ceres' headers are not free of the warnings that ours have to be.
+find_package(Ceres REQUIRED)
+add_library(vantage_ceres INTERFACE)
+target_link_libraries(vantage_ceres INTERFACE Ceres::ceres)
+get_target_property(ceres_includes Ceres::ceres INTERFACE_INCLUDE_DIRECTORIES)
+target_include_directories(vantage_ceres SYSTEM INTERFACE ${ceres_includes})
+
+find_package(valijson REQUIRED)
+find_package(yaml-cpp REQUIRED)
+# yaml-cpp's target got a namespace in 0.8.
+set(VANTAGE_YAML yaml-cpp)
+if(TARGET yaml-cpp::yaml-cpp)
+  set(VANTAGE_YAML yaml-cpp::yaml-cpp)
+endif()

@@ -5,7 +5,7 @@
 
 #include "simulator/color_sensor.hpp"
 #include "simulator/lamp.hpp"
-#include "simulator/lens.hpp"
+#include "vantage/raycore/lens.hpp"
 #include "simulator/ray_block.hpp"
 #include "simulator/sample_table.hpp"
 #include "simulator/surface_color.hpp"

@@ -7,16 +7,10 @@
 #include "simulator/simulated_scene.hpp"
 #include "vantage/raycore/camera.hpp"
 #include "vantage/raycore/image.hpp"
+#include "vantage/raycore/lens.hpp"
 #include "vantage/raycore/stop_token.hpp"
 
 namespace vantage {
-
-/// Brown–Conrady lens distortion in OpenCV's form and order.
-struct Distortion {
-  double k1 = 0, k2 = 0, p1 = 0, p2 = 0, k3 = 0;
-  bool none() const { return k1 == 0 && k2 == 0 && p1 == 0 && p2 == 0 && k3 == 0; }
-  bool operator==(const Distortion&) const = default;
-};
 
 /// The light of the cell: a square lamp over it, and a sky that comes from everywhere.
 ///

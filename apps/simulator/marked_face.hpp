@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "simulator/marker.hpp"
+#include "simulator/marker_print.hpp"
 
 namespace vantage::detail {
 

@@ -8,7 +8,7 @@
 #include <numbers>
 #include <vector>
 
-#include "simulator/marker.hpp"
+#include "simulator/marker_print.hpp"
 #include "simulator/marker_atlas.hpp"
 #include "vantage/raycore/error.hpp"
 

@@ -2,12 +2,12 @@
 
 #include <Eigen/Geometry>
 
-#include "marker_reader.hpp"
-#include "schema_check.hpp"
-#include "schemas.hpp"
-#include "simulator/solids.hpp"
-#include "value_readers.hpp"
-#include "yaml_document.hpp"
+#include "documents/marker_reader.hpp"
+#include "documents/schema_check.hpp"
+#include "documents/schemas.hpp"
+#include "vantage/raycore/solids.hpp"
+#include "documents/value_readers.hpp"
+#include "documents/yaml_document.hpp"
 
 namespace vantage {
 namespace {

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "document_value.hpp"
+#include "documents/document_value.hpp"
 #include "object_types.hpp"
-#include "simulator/marker.hpp"
+#include "simulator/marker_print.hpp"
 
 namespace vantage {
 

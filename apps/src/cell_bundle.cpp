@@ -8,7 +8,7 @@
 #include <string>
 
 #include "vantage/raycore/file.hpp"
-#include "yaml_document.hpp"
+#include "documents/yaml_document.hpp"
 
 namespace vantage {
 namespace {

@@ -7,13 +7,13 @@
 #include <map>
 #include <optional>
 
-#include "marker_reader.hpp"
-#include "schema_check.hpp"
-#include "schema_words.hpp"
-#include "schemas.hpp"
-#include "shape_reader.hpp"
-#include "value_readers.hpp"
-#include "yaml_document.hpp"
+#include "documents/marker_reader.hpp"
+#include "documents/schema_check.hpp"
+#include "documents/schema_words.hpp"
+#include "documents/schemas.hpp"
+#include "documents/shape_reader.hpp"
+#include "documents/value_readers.hpp"
+#include "documents/yaml_document.hpp"
 
 namespace vantage {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "simulator/marker.hpp"
+#include "vantage/reconstruction/marker.hpp"
 #include "simulator/textured_mesh.hpp"
 
 namespace vantage {

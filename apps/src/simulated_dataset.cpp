@@ -6,7 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "simulator/lens.hpp"
+#include "vantage/raycore/lens.hpp"
 #include "simulator/sample_hash.hpp"
 #include "vantage/raycore/error.hpp"
 #include "vantage/raycore/file.hpp"
@@ -110,7 +110,7 @@ void check_recording(const Workcell& workcell, const RecordingOptions& options) 
   options.depth.check("depth sensor");
   for (const CellCamera& camera : workcell.cameras) {
     check_depth_range(camera, options.depth_scale_mm);
-    const Lens lens(camera.camera.intrinsics(), options.color.distortion);  // or why it is none
+    const Lens lens(camera.camera.intrinsics(), options.color.distortion, "--distortion");  // or why it is none
   }
 }
 

@@ -4,13 +4,13 @@
 
 #include <vector>
 
-#include "document_value.hpp"
-#include "schema_check.hpp"
-#include "schemas.hpp"
+#include "documents/document_value.hpp"
+#include "documents/schema_check.hpp"
+#include "documents/schemas.hpp"
 #include "simulated_cell.hpp"
 #include "simulator/ground_truth.hpp"
-#include "value_readers.hpp"
-#include "yaml_document.hpp"
+#include "documents/value_readers.hpp"
+#include "documents/yaml_document.hpp"
 
 namespace vantage {
 namespace {

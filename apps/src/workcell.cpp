@@ -6,11 +6,11 @@
 #include <map>
 #include <string>
 
-#include "schema_check.hpp"
-#include "schemas.hpp"
-#include "value_readers.hpp"
+#include "documents/schema_check.hpp"
+#include "documents/schemas.hpp"
+#include "documents/value_readers.hpp"
 #include "volume_settings.hpp"
-#include "yaml_document.hpp"
+#include "documents/yaml_document.hpp"
 
 namespace vantage {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include "shape_reader.hpp"
-#include "value_readers.hpp"
+#include "documents/shape_reader.hpp"
+#include "documents/value_readers.hpp"
 
 namespace vantage {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "document_value.hpp"
+#include "documents/document_value.hpp"
 #include "object_types.hpp"
 #include "vantage/raycore/world_model.hpp"
 

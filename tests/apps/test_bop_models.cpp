@@ -5,7 +5,7 @@
 
 #include "bop_models.hpp"
 #include "bop_ply.hpp"
-#include "simulator/solids.hpp"
+#include "vantage/raycore/solids.hpp"
 #include "support/test_data.hpp"
 #include "vantage/raycore/mesh_io.hpp"
 

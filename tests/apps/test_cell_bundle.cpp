@@ -2,7 +2,7 @@
 
 #include <doctest/doctest.h>
 
-#include "simulator/solids.hpp"
+#include "vantage/raycore/solids.hpp"
 #include "support/test_data.hpp"
 #include "vantage/raycore/mesh_io.hpp"
 

@@ -5,7 +5,7 @@
 #include <set>
 #include <string>
 
-#include "schemas.hpp"
+#include "documents/schemas.hpp"
 #include "support/expect_error.hpp"
 #include "support/test_data.hpp"
 

@@ -1,10 +1,10 @@
-#include "schema_check.hpp"
+#include "documents/schema_check.hpp"
 
 #include <doctest/doctest.h>
 
-#include "schemas.hpp"
+#include "documents/schemas.hpp"
 #include "support/expect_error.hpp"
-#include "yaml_document.hpp"
+#include "documents/yaml_document.hpp"
 
 namespace vantage::test {
 namespace {

@@ -4,10 +4,10 @@
 
 #include <string>
 
-#include "schemas.hpp"
+#include "documents/schemas.hpp"
 #include "support/expect_error.hpp"
 #include "support/test_data.hpp"
-#include "yaml_document.hpp"
+#include "documents/yaml_document.hpp"
 
 namespace vantage::test {
 namespace {

@@ -1,4 +1,4 @@
-#include "yaml_document.hpp"
+#include "documents/yaml_document.hpp"
 
 #include <doctest/doctest.h>
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "run_command.hpp"
-#include "schema_check.hpp"
-#include "schemas.hpp"
+#include "documents/schema_check.hpp"
+#include "documents/schemas.hpp"
 #include "vantage/reconstruction/color_image.hpp"
 
 namespace vantage {

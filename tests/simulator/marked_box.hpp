@@ -3,8 +3,8 @@
 #include <Eigen/Geometry>
 #include <array>
 
-#include "simulator/marker.hpp"
-#include "simulator/solids.hpp"
+#include "vantage/reconstruction/marker.hpp"
+#include "vantage/raycore/solids.hpp"
 
 namespace vantage::test {
 

@@ -3,7 +3,7 @@
 #include <opencv2/calib3d.hpp>
 
 #include "simulator/color_scenes.hpp"
-#include "simulator/lens.hpp"
+#include "vantage/raycore/lens.hpp"
 #include "support/expect_error.hpp"
 
 namespace vantage::test {
@@ -14,14 +14,15 @@ const Intrinsics kIntrinsics{640, 480, 615, 611, 322.3, 238.1};
 const Distortion kDistortions[] = {{0.1, -0.05, 0.001, -0.002, 0.01},
                                    {-0.28, 0.09, 0, 0, 0},
                                    {0, 0, 0.01, 0.008, 0},
-                                   {-0.05, 0, 0, 0, 0.2}};
+                                   {-0.05, 0, 0, 0, 0.2},
+                                   {0.3, 0.05, 0.001, 0, 0.01, 0.35, 0.02, 0.005}};
 
 /// Where OpenCV has a point of the camera's frame on the image.
 cv::Point2d projected(const Eigen::Vector3d& p, const Intrinsics& k, const Distortion& d) {
   const cv::Matx33d matrix(k.fx, 0, k.cx, 0, k.fy, k.cy, 0, 0, 1);
   std::vector<cv::Point2d> result;
   cv::projectPoints(std::vector<cv::Point3d>{{p.x(), p.y(), p.z()}}, cv::Vec3d(), cv::Vec3d(),
-                    matrix, std::vector<double>{d.k1, d.k2, d.p1, d.p2, d.k3}, result);
+                    matrix, std::vector<double>{d.k1, d.k2, d.p1, d.p2, d.k3, d.k4, d.k5, d.k6}, result);
   return result[0];
 }
 
@@ -82,15 +83,15 @@ TEST_CASE("a photograph has things where OpenCV projects them, with a lens and w
 
 TEST_CASE("lenses that fold the image over, and coefficients that are no numbers, are refused") {
   const auto refused = [](const Distortion& distortion, const char* message) {
-    expect_bad_input("color sensor: distortion", message, [&] { Lens(kIntrinsics, distortion); });
+    expect_bad_input("distortion", message, [&] { Lens(kIntrinsics, distortion); });
     ColorSensor sensor;
     sensor.distortion = distortion;
     const SimulatedScene scene({picture_body(1, 1, ColorImage(1, 1))});
-    expect_bad_input("color sensor: distortion", message,
+    expect_bad_input("distortion", message,
                      [&] { simulate_color(scene, {}, PinholeCamera(kIntrinsics, {}), sensor, 1); });
   };
   refused({-0.6, 0, 0, 0, 0},
-          "with k1 = -0.6, k2 = 0, p1 = 0, p2 = 0, k3 = 0 the image folds over");
+          "k1, k2, p1, p2, k3 to k6 = -0.6, 0, 0, 0, 0, 0, 0, 0 the image folds over");
   refused({-1.5, 0.4, 0, 0, 0}, "folds over before pixel (");  // and unfolds again farther out
   refused({0, 0, 0.5, 0, 0}, "folds over before pixel (");
   refused({0, std::nan(""), 0, 0, 0}, "a coefficient is nan; expected finite numbers");

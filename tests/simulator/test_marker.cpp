@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <string>
 
-#include "simulator/marker.hpp"
+#include "vantage/reconstruction/marker.hpp"
 #include "support/detect_markers.hpp"
 #include "support/expect_error.hpp"
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "simulator/color_scenes.hpp"
-#include "simulator/marker.hpp"
+#include "simulator/marker_print.hpp"
 #include "support/marker_tally.hpp"
 #include "support/scene_count.hpp"
 

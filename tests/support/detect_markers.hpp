@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "simulator/opencv_aruco.hpp"
+#include "opencv_aruco.hpp"
 #include "vantage/raycore/image.hpp"
 
 namespace vantage::test {

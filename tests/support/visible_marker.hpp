@@ -5,7 +5,7 @@
 #include <numbers>
 #include <optional>
 
-#include "simulator/marker.hpp"
+#include "vantage/reconstruction/marker.hpp"
 #include "vantage/raycore/camera.hpp"
 #include "vantage/raycore/scene.hpp"
 

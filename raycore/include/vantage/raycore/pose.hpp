@@ -53,4 +53,9 @@ class VANTAGE_API Pose {
   Eigen::Vector3d translation_ = Eigen::Vector3d::Zero();
 };
 
+/// Covariance of a pose. Translation (x, y, z, m²) before rotation (a rotation vector around x, y,
+/// z, rad²), both in the parent frame, as ROS has it: the true pose is (exp(r) R, translation + t)
+/// for a small (t, r). For a T_world_object the parent is the world.
+using Matrix6d = Eigen::Matrix<double, 6, 6>;
+
 }  // namespace vantage

@@ -12,11 +12,23 @@
 
 namespace vantage {
 
+/// What a thing may be just as well: another pose, or another type.
+struct AlternativeObject {
+  std::string type;
+  std::shared_ptr<const TriangleMesh> mesh;  ///< never null
+  Pose T_world_object;
+  double probability = 0;
+};
+
 /// Something whose shape and pose are known: a reconstructed object or a static structure.
 struct KnownObject {
   std::string name;
   std::shared_ptr<const TriangleMesh> mesh;  ///< in the object's own frame; never null
   Pose T_world_object;
+  std::string type = {};                    ///< the knowledge base's name; empty if it has none
+  std::optional<Matrix6d> covariance = {};  ///< of T_world_object; none: the pose was not measured
+  double probability = 1;                   ///< that it is this, here
+  std::vector<AlternativeObject> alternatives = {};  ///< likeliest first
 };
 
 /// A camera that looks at the workcell, with what it measured if it measures depth.

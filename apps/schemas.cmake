@@ -1,9 +1,0 @@
-# Puts assets/schema/*.schema.json into the binary: VANTAGE_SCHEMAS_CPP is the source to compile.
-# A change of a schema runs this again with the next build.
-foreach(name workcell knowledge plan)
-  set(file "${PROJECT_SOURCE_DIR}/assets/schema/${name}.schema.json")
-  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS "${file}")
-  file(READ "${file}" ${name}_schema)
-endforeach()
-set(VANTAGE_SCHEMAS_CPP "${CMAKE_CURRENT_BINARY_DIR}/schemas.cpp")
-configure_file(src/schemas.cpp.in "${VANTAGE_SCHEMAS_CPP}" @ONLY)

@@ -1,0 +1,94 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "vantage/raycore/api.hpp"
+#include "vantage/raycore/stop_token.hpp"
+#include "vantage/raycore/world_model.hpp"
+#include "vantage/reconstruction/knowledge_base.hpp"
+#include "vantage/reconstruction/observation.hpp"
+
+namespace vantage {
+
+/// An observation: `views[view].observations[observation]`.
+struct ObservationId {
+  std::size_t view = 0;
+  std::size_t observation = 0;
+  auto operator<=>(const ObservationId&) const = default;
+};
+
+/// An observation that speaks for an object.
+struct Support {
+  ObservationId id;
+  std::size_t feature = 0;  ///< of the object's type
+  double residual_px = 0;   ///< root mean square over its points; of a pose or a label: 0
+};
+
+/// Another explanation of the same observations.
+struct Alternative {
+  TypePtr type;
+  Pose T_world_object;
+  double probability = 0;
+};
+
+/// An object that was found.
+struct ReconstructedObject {
+  TypePtr type;
+  Pose T_world_object;
+  std::optional<Matrix6d> covariance = {};  ///< none: the method has no notion of it
+  /// That it is there, of this type, and at this pose rather than at one of the alternatives'.
+  double probability = 1;
+  double rms_px = 0;                           ///< over the points of all inliers
+  std::vector<Support> support = {};           ///< ascending by id
+  std::vector<Alternative> alternatives = {};  ///< likeliest first
+};
+
+/// An observation that no object was made of.
+struct Unexplained {
+  ObservationId id;
+  std::string reason;
+};
+
+/// What was made of the views. Objects in the order of their types, then of their first support.
+struct Reconstruction {
+  std::vector<ReconstructedObject> objects;
+  std::vector<Unexplained> unexplained;  ///< ascending by id
+  StopReason stopped = StopReason::none;
+};
+
+/// Bounds that the methods share.
+struct ReconstructOptions {
+  double inlier_px = 3.0;  ///< multi-view PnP, voting: residuals above it belong to something else
+  double merge_m = 0.01;   ///< SVD: none; voting: votes that are nearer are for one object
+  double least_evidence = 13.8;  ///< see LocateOptions
+  /// An object that a single camera sees by a single marker may be tilted two ways. Off: such
+  /// objects are left out, unless one of the two explains its corners clearly better.
+  bool keep_ambiguous = true;
+};
+
+/// One pose for each type from the corners that single cameras find in space (thesis, section 6.1,
+/// with the rotation V Uᵀ). The baseline: one instance of each type, features with 3D points only.
+VANTAGE_API Reconstruction reconstruct_svd(std::span<const CameraView> views,
+                                           const KnowledgeBase& knowledge,
+                                           const ReconstructOptions& options = {},
+                                           const StopToken& stop = {});
+
+/// Poses that minimise the reprojection error over all cameras at once; instances by splitting and
+/// merging until every residual is below `inlier_px` (thesis, section 6.3). Covariances have the
+/// cameras' own in them.
+VANTAGE_API Reconstruction reconstruct_pnp(std::span<const CameraView> views,
+                                           const KnowledgeBase& knowledge,
+                                           const ReconstructOptions& options = {},
+                                           const StopToken& stop = {});
+
+/// Poses that most features vote for, of whatever kind they are (thesis, section 6.2): a sparse
+/// table over (type, 6DoF), with votes against types that do not carry what is seen.
+VANTAGE_API Reconstruction reconstruct_voting(std::span<const CameraView> views,
+                                              const KnowledgeBase& knowledge,
+                                              const ReconstructOptions& options = {},
+                                              const StopToken& stop = {});
+
+}  // namespace vantage
