@@ -28,7 +28,7 @@ Workcell workcell_of(const PlanOptions& options) {
 std::vector<Observer> observers_of(const BopScene& scene) {
   std::vector<Observer> observers;
   for (const BopImage& image : scene.images) {
-    observers.push_back({std::to_string(image.id), image.camera, image.depth});
+    observers.push_back({std::to_string(image.id), image.camera(), image.depth});
   }
   return observers;
 }
@@ -70,7 +70,7 @@ PlanInput load_plan_input(const PlanOptions& options) {
 
   PlanInput input{
       {known(workcell.known_objects), known(workcell.static_structures), observers_of(scene)},
-      request_of(workcell, options, scene.images.front().camera.intrinsics()),
+      request_of(workcell, options, scene.images.front().intrinsics),
       {}};
   input.record.inputs = workcell.files;
   input.record.inputs.insert(input.record.inputs.end(), scene.files.begin(), scene.files.end());

@@ -72,12 +72,8 @@ void select(Entries& entries, std::span<const int> only_ids, const fs::path& fil
   });
 }
 
-Pose read_pose(const Entry& entry) {
-  if (!entry.has("cam_R_w2c")) {
-    throw bad_input(entry.where("cam_R_w2c"),
-                    "missing; locating cameras by markers is not in this version: write the "
-                    "camera's pose into cam_R_w2c and cam_t_w2c");
-  }
+std::optional<Pose> read_pose(const Entry& entry) {
+  if (!entry.has("cam_R_w2c") && !entry.has("cam_t_w2c")) return std::nullopt;
   const std::array<double, 9> r = entry.numbers<9>("cam_R_w2c");
   const std::array<double, 3> t = entry.numbers<3>("cam_t_w2c");
   Eigen::Matrix3d R_cam_world;
@@ -157,8 +153,7 @@ class Loader {
                                                  stem(id)));
     }
     const Intrinsics intrinsics = read_intrinsics(entry, *vote.size());
-    return {id, PinholeCamera(intrinsics, read_pose(entry), range_, entry.where()),
-            std::move(depth), color};
+    return {id, entry.where(), intrinsics, range_, read_pose(entry), std::move(depth), color};
   }
 
  private:
@@ -197,6 +192,14 @@ class Loader {
 };
 
 }  // namespace
+
+PinholeCamera BopImage::camera() const {
+  if (T_world_cam) return PinholeCamera(intrinsics, *T_world_cam, range, place);
+  throw bad_input(
+      place + ": cam_R_w2c",
+      "missing, so that nobody knows where the camera is; write its pose into cam_R_w2c "
+      "and cam_t_w2c, or give the workcell a board of markers to locate it by");
+}
 
 BopScene load_bop_scene(const fs::path& folder, const DepthRange& range,
                         std::span<const int> only_ids) {

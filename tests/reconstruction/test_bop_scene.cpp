@@ -38,12 +38,12 @@ TEST_CASE("a BOP scene becomes cameras with depth in metres") {
   REQUIRE(scene.images.size() == 1);
   const BopImage& image = scene.images[0];
   CHECK(image.id == 7);
-  CHECK(image.camera.intrinsics() == Intrinsics{8, 6, 50, 60, 4, 3});
-  CHECK(image.camera.range() == DepthRange{0.2, 5});
+  CHECK(image.intrinsics == Intrinsics{8, 6, 50, 60, 4, 3});
+  CHECK(image.camera().range() == DepthRange{0.2, 5});
   // The inverse of (R, t/1000): the centre is -Rᵀt, the optical axis is R's last row.
-  CHECK((image.camera.centre() - Eigen::Vector3d(0.1, 0.2, 2)).norm() < 1e-12);
-  CHECK((image.camera.T_world_cam().rotation().col(2) + Eigen::Vector3d::UnitZ()).norm() < 1e-12);
-  CHECK((image.camera.unproject(4, 3, 2) - Eigen::Vector3d(0.1, 0.2, 0)).norm() < 1e-12);
+  CHECK((image.camera().centre() - Eigen::Vector3d(0.1, 0.2, 2)).norm() < 1e-12);
+  CHECK((image.camera().T_world_cam().rotation().col(2) + Eigen::Vector3d::UnitZ()).norm() < 1e-12);
+  CHECK((image.camera().unproject(4, 3, 2) - Eigen::Vector3d(0.1, 0.2, 0)).norm() < 1e-12);
   REQUIRE(image.depth);
   CHECK(image.depth->at(5, 2) == 1.0f);  // 2000 counts of 0.5 mm
   CHECK(image.color == folder.path() / "rgb/000007.png");
@@ -59,14 +59,14 @@ TEST_CASE("a BOP scene without depth has cameras of its colour images' size") {
   const BopScene scene = load_bop_scene(folder.path());
   REQUIRE(scene.images.size() == 1);
   CHECK(scene.images[0].depth == nullptr);
-  CHECK(scene.images[0].camera.intrinsics() == Intrinsics{10, 7, 50, 60, 4, 3});
+  CHECK(scene.images[0].intrinsics == Intrinsics{10, 7, 50, 60, 4, 3});
 }
 
 TEST_CASE("a BOP scene without images takes the size from width and height") {
   SceneFolder folder;
   folder.entry(kCamK + ", " + kPose + R"(, "width": 12, "height": 9)");
   const BopScene scene = load_bop_scene(folder.path());
-  CHECK(scene.images.at(0).camera.intrinsics() == Intrinsics{12, 9, 50, 60, 4, 3});
+  CHECK(scene.images.at(0).intrinsics == Intrinsics{12, 9, 50, 60, 4, 3});
   CHECK(scene.images.at(0).color.empty());
 }
 
@@ -121,10 +121,9 @@ TEST_CASE("an image that is there twice is refused") {
   expect_json_refused("{\"7\": {}, \"7\": {}}", "scene_camera.json: \"7\"",
                       {"twice", "remove one"});
   expect_json_refused("{\"7\": {}, \"007\": {}}", "scene_camera.json: \"7\"", {"image 7", "twice"});
-  // The same key in two objects is fine; this one gets as far as the missing pose.
+  // The same key in two objects is fine; this one gets as far as image 8's missing depth.
   const std::string entry = "{" + kCamK + ", " + kScale + "}";
-  expect_json_refused("{\"7\": " + entry + ", \"8\": " + entry + "}", "\"7\": cam_R_w2c",
-                      {"missing"});
+  expect_json_refused("{\"7\": " + entry + ", \"8\": " + entry + "}", "000008.png", {"missing"});
 }
 
 TEST_CASE("a million nested arrays are refused before they overflow the stack") {
@@ -139,9 +138,35 @@ TEST_CASE("an entry without what it needs is refused") {
   const std::string good = kCamK + ", " + kScale;
   expect_entry_refused(kScale + ", " + kPose, "cam_K", {"missing"});
   expect_entry_refused(kCamK + ", " + kPose, "depth_scale", {"missing"});
-  expect_entry_refused(good, "cam_R_w2c", {"markers", "not in this version", "pose"});
+  expect_entry_refused(good + R"(, "cam_t_w2c": [1, 2, 3])", "cam_R_w2c", {"missing"});
   expect_entry_refused(good + R"(, "cam_R_w2c": [1, 0, 0, 0, 1, 0, 0, 0, 1])", "cam_t_w2c",
                        {"missing"});
+}
+
+TEST_CASE("a camera without a pose has to be located first") {
+  SceneFolder folder;
+  const BopScene scene = load_bop_scene(folder.entry(kCamK + ", " + kScale).depth().path());
+  REQUIRE(scene.images.size() == 1);
+  CHECK(!scene.images[0].T_world_cam);
+  CHECK(scene.images[0].intrinsics == Intrinsics{8, 6, 50, 60, 4, 3});
+  expect_refused([&] { scene.images[0].camera(); }, "\"7\": cam_R_w2c", {"missing", "markers"});
+}
+
+TEST_CASE("photographs are taken in the order of their names") {
+  TemporaryFolder folder;
+  const Intrinsics k{8, 6, 50, 60, 4, 3};
+  expect_refused([&] { load_photographs(folder.path(), k); }, "", {"neither", "pictures"});
+  write_png(folder.path() / "b.png", ColorImage(8, 6, 90));
+  write_png(folder.path() / "a.png", ColorImage(8, 6, 90));
+  folder.write("notes.txt", "no picture");
+  const BopScene scene = load_photographs(folder.path(), k);
+  REQUIRE(scene.images.size() == 2);
+  CHECK(scene.images[0].color == folder.path() / "a.png");
+  CHECK(scene.images[1].id == 1);
+  CHECK(scene.files.size() == 2);
+  CHECK(!scene.images[0].T_world_cam);
+  write_png(folder.path() / "c.png", ColorImage(6, 8, 90));
+  expect_refused([&] { load_photographs(folder.path(), k); }, "c.png", {"6 x 8", "8 x 6"});
 }
 
 TEST_CASE("an entry of the wrong type or length is refused") {
@@ -240,8 +265,8 @@ TEST_CASE("the recordings look down at the workspace") {
     int known = 0, on_table = 0;
     for (const BopImage& image : scene.images) {
       CAPTURE(image.id);
-      CHECK(image.camera.centre().z() > 0);
-      CHECK(image.camera.T_world_cam().rotation()(2, 2) < 0);  // the optical axis points down
+      CHECK(image.camera().centre().z() > 0);
+      CHECK(image.camera().T_world_cam().rotation()(2, 2) < 0);  // the optical axis points down
       REQUIRE(image.depth);
       CHECK(image.depth->width() == 640);
       CHECK(image.depth->height() == 480);
@@ -250,7 +275,7 @@ TEST_CASE("the recordings look down at the workspace") {
           const float depth = image.depth->at(u, v);
           if (!std::isfinite(depth)) continue;
           ++known;
-          if (std::abs(image.camera.unproject(u, v, depth).z()) < 0.03) ++on_table;
+          if (std::abs(image.camera().unproject(u, v, depth).z()) < 0.03) ++on_table;
         }
       }
     }
