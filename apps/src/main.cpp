@@ -48,6 +48,7 @@ int main(int argc, char** argv) {
   Action action;
   add_plan_command(app, action);
   add_demo_command(app, action);
+  add_reconstruct_command(app, action);
   add_simulate_command(app, action);
   add_render_command(app, action);
   add_evaluate_command(app, action);

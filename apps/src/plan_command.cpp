@@ -1,9 +1,12 @@
+#include <spdlog/spdlog.h>
+
 #include <memory>
 
 #include "command.hpp"
 #include "interrupt.hpp"
 #include "plan_input.hpp"
 #include "vantage/raycore/error.hpp"
+#include "workers.hpp"
 
 namespace vantage {
 namespace {
@@ -36,6 +39,20 @@ void add_input_options(CLI::App& verb, PlanOptions& plan) {
                                  "which volume matters is not in the dataset");
     }
   });
+}
+
+void add_object_options(CLI::App& verb, ObjectSource& source) {
+  verb.add_option(
+          "--objects", source.objects,
+          "given: the workcell's known_objects; pnp, voting, svd: found by that method; or "
+          "a world.json of `vantage reconstruct` (default: given if there are any, else pnp)")
+      ->check([](const std::string& name) -> std::string {
+        const bool known = name == "given" || CLI::IsMember(kReconstructionMethods)(name).empty();
+        return known || std::filesystem::exists(name)
+                   ? ""
+                   : "neither given, pnp, voting or svd, nor a file that is there: " + name;
+      });
+  source.how.add_to(verb);
 }
 
 void add_planning_options(CLI::App& verb, PlanArguments& arguments) {
@@ -78,7 +95,9 @@ ExitCode plan(const PlanArguments& arguments) {
   const auto start = StopToken::Clock::now();
   const RunOptions run = arguments.common.run(start);
   const Interrupt interrupt({run.stop, run.drawing});
-  PlanInput input = load_plan_input(arguments.plan);
+  PlanInput input =
+      Workers(arguments.common.threads).execute([&] { return load_plan_input(arguments.plan, run.stop); });
+  for (const std::string& warning : input.warnings) spdlog::warn("{}", warning);
   input.record.config["deadline_ms"] = arguments.common.deadline_ms
                                            ? nlohmann::ordered_json(*arguments.common.deadline_ms)
                                            : nlohmann::ordered_json();
@@ -92,6 +111,7 @@ void add_plan_command(CLI::App& app, Action& action) {
   const auto arguments = std::make_shared<PlanArguments>();
   arguments->common.add_to(*verb);
   add_input_options(*verb, arguments->plan);
+  add_object_options(*verb, arguments->plan.objects);
   add_planning_options(*verb, *arguments);
   add_volume_options(*verb, arguments->plan);
   verb->parse_complete_callback(

@@ -3,7 +3,6 @@
 #include <chrono>
 
 #include "vantage/raycore/error.hpp"
-#include "vantage/reconstruction/bop_scene.hpp"
 #include "volume_settings.hpp"
 #include "workcell.hpp"
 
@@ -20,17 +19,8 @@ Workcell workcell_of(const PlanOptions& options) {
   }
   if (options.workcell.empty()) return {.work_area = area.value()};
   Workcell workcell = load_workcell(options.workcell);
-  place_random_objects(workcell);
   if (area) workcell.work_area = *area;
   return workcell;
-}
-
-std::vector<Observer> observers_of(const BopScene& scene) {
-  std::vector<Observer> observers;
-  for (const BopImage& image : scene.images) {
-    observers.push_back({std::to_string(image.id), image.camera(), image.depth});
-  }
-  return observers;
 }
 
 VolumeOptions volume_of(const Workcell& workcell, const PlanOptions& options) {
@@ -58,7 +48,7 @@ PlanRequest request_of(const Workcell& workcell, const PlanOptions& options,
 
 }  // namespace
 
-PlanInput load_plan_input(const PlanOptions& options) {
+PlanInput load_plan_input(const PlanOptions& options, const StopToken& stop) {
   const auto start = std::chrono::steady_clock::now();
   Workcell workcell = workcell_of(options);
   if (!options.depth_range.empty()) {
@@ -66,19 +56,18 @@ PlanInput load_plan_input(const PlanOptions& options) {
     range.check("--depth-range");
     workcell.sensor_range = workcell.movable_range = range;
   }
-  const BopScene scene = load_bop_scene(options.dataset, workcell.sensor_range, options.images);
-
+  PlanWorld plan =
+      load_plan_world(options.dataset, options.images, workcell, options.objects, stop);
   PlanInput input{
-      {known(workcell.known_objects), known(workcell.static_structures), observers_of(scene)},
-      request_of(workcell, options, scene.images.front().intrinsics),
-      {}};
+      std::move(plan.world), request_of(workcell, options, plan.first_camera), {}, plan.warnings};
   input.record.inputs = workcell.files;
-  input.record.inputs.insert(input.record.inputs.end(), scene.files.begin(), scene.files.end());
+  input.record.inputs.insert(input.record.inputs.end(), plan.files.begin(), plan.files.end());
   input.record.config = {
       {"dataset", options.dataset.string()},
       {"workcell", options.workcell.empty() ? nlohmann::ordered_json()
                                             : nlohmann::ordered_json(options.workcell.string())},
       {"images", options.images},
+      {"objects", plan.objects},
       {"sensor_depth_range_m", {workcell.sensor_range.near_m, workcell.sensor_range.far_m}}};
   input.record.load_s =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

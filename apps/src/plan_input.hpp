@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "plan_json.hpp"
+#include "plan_world.hpp"
 #include "vantage/planner/plan.hpp"
 #include "vantage/raycore/world_model.hpp"
 
@@ -14,9 +15,10 @@ namespace vantage {
 /// What `vantage plan` was asked for. What is set here wins over the workcell file.
 struct PlanOptions {
   std::filesystem::path dataset;
-  std::filesystem::path workcell;   ///< empty: none
-  std::vector<double> work_area;    ///< x0 y0 z0 x1 y1 z1; empty: from the workcell
-  std::vector<int> images;          ///< empty: all of the dataset
+  std::filesystem::path workcell;  ///< empty: none
+  std::vector<double> work_area;   ///< x0 y0 z0 x1 y1 z1; empty: from the workcell
+  std::vector<int> images;         ///< empty: all of the dataset
+  ObjectSource objects = {};
   std::vector<double> depth_range;  ///< near, far of all cameras; empty: from the workcell
   std::vector<double> radii_m;
   std::optional<int> count;
@@ -32,11 +34,13 @@ struct PlanInput {
   WorldModel world;
   PlanRequest request;
   PlanRecord record;
+  std::vector<std::string> warnings;
 };
 
-/// Loads the dataset and the workcell.
-/// @throws Error bad_input as `load_bop_scene` and `load_workcell` do, and for options that do not
+/// Loads the dataset and the workcell, and finds the objects if they are not given. Runs in the
+/// caller's task arena.
+/// @throws Error bad_input as `load_plan_world` and `load_workcell` do, and for options that do not
 /// make sense.
-PlanInput load_plan_input(const PlanOptions& options);
+PlanInput load_plan_input(const PlanOptions& options, const StopToken& stop = {});
 
 }  // namespace vantage

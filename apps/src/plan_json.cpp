@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "pose_json.hpp"
 #include "sha256.hpp"
 #include "version.hpp"
 #include "volume_json.hpp"
@@ -11,16 +12,6 @@ namespace vantage {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-Json to_json(const Eigen::Vector3d& v) {
-  return Json::array({v.x(), v.y(), v.z()});
-}
-
-Json to_json(const Pose& pose) {
-  const Eigen::Quaterniond q = pose.quaternion();
-  return {{"rotation", {{"w", q.w()}, {"x", q.x()}, {"y", q.y()}, {"z", q.z()}}},
-          {"translation_m", to_json(pose.translation())}};
-}
 
 Json number_or_null(const std::optional<double>& value) {
   return value ? Json(*value) : Json();

@@ -6,11 +6,12 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "vantage/raycore/lens.hpp"
+#include "pose_json.hpp"
 #include "simulator/sample_hash.hpp"
 #include "vantage/raycore/error.hpp"
 #include "vantage/raycore/file.hpp"
 #include "vantage/raycore/image_io.hpp"
+#include "vantage/raycore/lens.hpp"
 
 namespace vantage {
 namespace {
@@ -20,24 +21,13 @@ using Json = nlohmann::ordered_json;
 
 constexpr double kMm = 1000;
 
-Json rotation_json(const Pose& pose) {
-  Json numbers = Json::array();
-  for (int i = 0; i < 9; ++i) numbers.push_back(pose.rotation()(i / 3, i % 3));
-  return numbers;
-}
-
-Json translation_json(const Pose& pose) {
-  const Eigen::Vector3d mm = kMm * pose.translation();
-  return Json::array({mm.x(), mm.y(), mm.z()});
-}
-
 Json camera_json(const PinholeCamera& camera, double depth_scale_mm) {
   const Intrinsics& k = camera.intrinsics();
   const Pose T_cam_world = camera.T_world_cam().inverse();
   return {{"cam_K", {k.fx, 0.0, k.cx, 0.0, k.fy, k.cy, 0.0, 0.0, 1.0}},
           {"depth_scale", depth_scale_mm},
-          {"cam_R_w2c", rotation_json(T_cam_world)},
-          {"cam_t_w2c", translation_json(T_cam_world)}};
+          {"cam_R_w2c", bop_rotation(T_cam_world)},
+          {"cam_t_w2c", bop_translation(T_cam_world)}};
 }
 
 Json truth_json(const Workcell& workcell, const std::vector<BopModel>& models,
@@ -45,8 +35,8 @@ Json truth_json(const Workcell& workcell, const std::vector<BopModel>& models,
   Json list = Json::array();
   for (const PlacedObject& object : workcell.known_objects) {
     const Pose T_cam_model = camera.T_world_cam().inverse() * object.T_world_object;
-    list.push_back({{"cam_R_m2c", rotation_json(T_cam_model)},
-                    {"cam_t_m2c", translation_json(T_cam_model)},
+    list.push_back({{"cam_R_m2c", bop_rotation(T_cam_model)},
+                    {"cam_t_m2c", bop_translation(T_cam_model)},
                     {"obj_id", model_of(models, object).id}});
   }
   return list;
@@ -110,7 +100,8 @@ void check_recording(const Workcell& workcell, const RecordingOptions& options) 
   options.depth.check("depth sensor");
   for (const CellCamera& camera : workcell.cameras) {
     check_depth_range(camera, options.depth_scale_mm);
-    const Lens lens(camera.camera.intrinsics(), options.color.distortion, "--distortion");  // or why it is none
+    const Lens lens(camera.camera.intrinsics(), options.color.distortion,
+                    "--distortion");  // or why it is none
   }
 }
 

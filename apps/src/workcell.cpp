@@ -9,8 +9,8 @@
 #include "documents/schema_check.hpp"
 #include "documents/schemas.hpp"
 #include "documents/value_readers.hpp"
-#include "volume_settings.hpp"
 #include "documents/yaml_document.hpp"
+#include "volume_settings.hpp"
 
 namespace vantage {
 namespace {
@@ -27,7 +27,19 @@ Reach read_reach(const Value& value) {
   return reach;
 }
 
-void read_sensor(const Value& value, Workcell& workcell) {
+/// A file, or a list of files, that a value names.
+std::vector<fs::path> named_files(const Value& value, const fs::path& folder,
+                                  std::vector<fs::path>& files) {
+  if (value.is_string()) return {named_file(value, folder, files)};
+  std::vector<fs::path> named;
+  for (const Value& name : value.elements()) named.push_back(named_file(name, folder, files));
+  return named;
+}
+
+void read_sensor(const Value& value, const fs::path& folder, Workcell& workcell) {
+  if (value.has("calibration")) {
+    workcell.calibrations = named_files(value["calibration"], folder, workcell.files);
+  }
   if (value.has("depth_range_m")) workcell.sensor_range = read_range(value["depth_range_m"]);
   if (value.has("intrinsics")) workcell.sensor_intrinsics = read_intrinsics(value["intrinsics"]);
 }
@@ -91,8 +103,8 @@ VolumeOptions read_volume(const Value& value) {
   return volume;
 }
 
-void read_settings(const Value& root, Workcell& workcell) {
-  if (root.has("sensor")) read_sensor(root["sensor"], workcell);
+void read_settings(const Value& root, const fs::path& folder, Workcell& workcell) {
+  if (root.has("sensor")) read_sensor(root["sensor"], folder, workcell);
   if (root.has("movable_camera")) read_movable_camera(root["movable_camera"], workcell);
   if (root.has("candidates")) read_candidates(root["candidates"], workcell);
   if (root.has("reach")) workcell.reach = read_reach(root["reach"]);
@@ -159,7 +171,7 @@ Workcell load_workcell(const fs::path& path) {
 
   Workcell workcell{.work_area = read_box(root["work_area"])};
   workcell.files.push_back(path);
-  read_settings(root, workcell);
+  read_settings(root, path.parent_path(), workcell);
   read_contents(root, path.parent_path(), workcell);
   return workcell;
 }

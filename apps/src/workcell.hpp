@@ -28,9 +28,10 @@ inline constexpr Intrinsics kUsualIntrinsics{640, 480, 615, 615, 319.5, 239.5};
 /// What a workcell file says; assets/schema/workcell.schema.json describes the keys.
 struct Workcell {
   Box work_area;
-  DepthRange sensor_range = {};                       ///< of the dataset's cameras
-  Intrinsics sensor_intrinsics = kUsualIntrinsics;    ///< of the simulated cell's cameras
-  std::optional<Intrinsics> movable_intrinsics = {};  ///< none: like the dataset's first camera
+  DepthRange sensor_range = {};                          ///< of the dataset's cameras
+  Intrinsics sensor_intrinsics = kUsualIntrinsics;       ///< of the simulated cell's cameras
+  std::vector<std::filesystem::path> calibrations = {};  ///< of the dataset's: one, or one for each
+  std::optional<Intrinsics> movable_intrinsics = {};     ///< none: like the dataset's first camera
   DepthRange movable_range = {};
   std::vector<double> candidate_radii_m = {};  ///< empty: from the work area's size
   int candidates_per_half_sphere = 20;

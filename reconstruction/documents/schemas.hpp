@@ -8,5 +8,6 @@ namespace vantage {
 const nlohmann::json& workcell_schema();
 const nlohmann::json& knowledge_schema();
 const nlohmann::json& plan_schema();
+const nlohmann::json& world_schema();
 
 }  // namespace vantage

@@ -32,8 +32,7 @@ TEST_CASE("the planner gets objects of types with their meshes, and nothing of t
   options.workcell = folder.write("cell.yaml", kCell);
   const PlanInput input = load_plan_input(options);
 
-  REQUIRE(input.world.objects.size() == 3);  // two at random
-  CHECK(input.world.objects[2].mesh == input.world.objects[0].mesh);
+  REQUIRE(input.world.objects.size() == 1);  // those at random have to be found
   const KnownObject& cube = input.world.objects[0];
   CHECK(cube.name == "a");
   CHECK(cube.T_world_object.translation() == Eigen::Vector3d(0.1, 0.2, 0.3));

@@ -59,6 +59,12 @@ struct Reconstruction {
   StopReason stopped = StopReason::none;
 };
 
+/// The objects as the planner sees them, with names that are unique: the type's, and a number where
+/// there are several of a type.
+/// @param taken names that something else has.
+VANTAGE_API std::vector<KnownObject> known_objects(const Reconstruction& result,
+                                                   const std::vector<std::string>& taken = {});
+
 /// Bounds that the methods share.
 struct ReconstructOptions {
   double inlier_px = 3.0;  ///< multi-view PnP, voting: residuals above it belong to something else
