@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <string>
 
-#include "vantage/reconstruction/marker.hpp"
 #include "support/detect_markers.hpp"
 #include "support/expect_error.hpp"
+#include "vantage/reconstruction/marker.hpp"
 
 using namespace vantage;
 using namespace vantage::test;
@@ -60,10 +60,10 @@ TEST_CASE("OpenCV finds the markers of every dictionary by their cells") {
       REQUIRE(found.size() == 1);
       CHECK(found[0].id == id);
       // Pixel centres are at integers: the first black pixel's edge is half a pixel before it.
-      const float low = 15.5f, high = low + 8 * float(cells.side);
-      const std::array<cv::Point2f, 4> truth = {
+      const double low = 15.5, high = low + 8 * cells.side;
+      const std::array<Eigen::Vector2d, 4> truth = {
           {{low, low}, {high, low}, {high, high}, {low, high}}};
-      for (std::size_t i = 0; i < 4; ++i) CHECK(cv::norm(found[0].corners[i] - truth[i]) < 0.02);
+      for (std::size_t i = 0; i < 4; ++i) CHECK((found[0].corners[i] - truth[i]).norm() < 0.02);
     }
   }
 }

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "marked_box.hpp"
+#include "simulator/srgb.hpp"
 #include "support/detect_markers.hpp"
 #include "texture_lookup.hpp"
 
@@ -50,10 +51,9 @@ ColorImage orthographic(const TexturedMesh& shape, const Pose& T_object_face, in
         const double x = 0.0005 * (u - pixels / 2 + (i % 4 - 1.5) / 4);
         const double y = -0.0005 * (v - pixels / 2 + (i / 4 - 1.5) / 4);
         const auto color = color_at(shape, triangles, T_object_face * Vector3d(x, y, 0));
-        light += linear_light((color ? (*color)[0] : 60) / 255.0) / 16;
+        light += double(srgb_to_linear(float(color ? (*color)[0] : 60) / 255)) / 16;
       }
-      const double srgb = 1.055 * std::pow(std::max(light, 0.0031308), 1 / 2.4) - 0.055;
-      std::fill_n(image.pixel(u, v), 3, std::uint8_t(std::lround(255 * srgb)));
+      std::fill_n(image.pixel(u, v), 3, linear_to_srgb8(float(light)));
     }
   }
   return image;
@@ -115,8 +115,7 @@ TEST_CASE("OpenCV finds printed markers where they are") {
       const auto corners = markers[i].corners();
       for (std::size_t c = 0; c < 4; ++c) {
         const Vector3d p = T_object_view.inverse() * corners[c] / 0.0005;
-        CHECK(cv::norm(found[i].corners[c] - cv::Point2f(100 + float(p.x()), 100 - float(p.y()))) <
-              0.2);
+        CHECK((found[i].corners[c] - Eigen::Vector2d(100 + p.x(), 100 - p.y())).norm() < 0.2);
       }
     }
   }

@@ -27,8 +27,7 @@ struct MarkerTally {
     CAPTURE(marker.id);
     // Several instances of a type carry the same ids: the nearest one is meant.
     const auto distance = [&](const DetectedMarker& f) {
-      const Eigen::Vector2d at(f.corners[0].x, f.corners[0].y);
-      return f.id == marker.id ? (at - (*corners)[0]).norm() : 1e9;
+      return f.id == marker.id ? (f.corners[0] - (*corners)[0]).norm() : 1e9;
     };
     const auto hit =
         std::min_element(found.begin(), found.end(),
@@ -40,8 +39,7 @@ struct MarkerTally {
       return;
     }
     for (std::size_t c = 0; c < 4; ++c) {
-      const Eigen::Vector2d at(hit->corners[c].x, hit->corners[c].y);
-      errors.push_back((at - (*corners)[c]).norm());
+      errors.push_back((hit->corners[c] - (*corners)[c]).norm());
       CAPTURE(c);
       CHECK(errors.back() < 0.5);
     }
