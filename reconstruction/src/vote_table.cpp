@@ -27,8 +27,8 @@ void drop_sign(std::array<std::int32_t, 4>& key) {
 VoteTable::VoteTable(const VoteGrid& grid) : grid_(grid), slots_(64) {}
 
 bool VoteTable::has_room_for(const VotePlace& place) const {
-  const double cells = (place.p_m - grid_.origin_m).cwiseAbs().maxCoeff() / grid_.cell_m;
-  return cells <= kFarthestCells;  // false for NaN too
+  const Eigen::Array3d cells = (place.p_m - grid_.origin_m).array().abs() / grid_.cell_m;
+  return (cells <= kFarthestCells).all();  // false for NaN too
 }
 
 std::array<VoteTable::Share, VoteTable::kCellsPerVote> VoteTable::shares(
