@@ -7,6 +7,7 @@ find_package(PNG REQUIRED)
 find_package(assimp REQUIRED)
 find_package(nlohmann_json REQUIRED)
 find_package(Qhull REQUIRED)
+find_package(nanoflann REQUIRED)
 
 # Debian 12 has Embree 3.13, Debian 13 has 4.3: raycore/src/embree.hpp hides the difference.
 find_package(embree REQUIRED)
