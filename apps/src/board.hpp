@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "documents/document_value.hpp"
-#include "object_types.hpp"
-#include "simulator/marker_print.hpp"
+#include "simulator/textured_mesh.hpp"
+#include "vantage/reconstruction/knowledge_base.hpp"
 
 namespace vantage {
 
@@ -19,6 +19,9 @@ struct Board {
   double thickness_m = 0.01;
   Eigen::Vector3f color = {0.9f, 0.9f, 0.9f};  ///< sRGB, 0 to 1
   std::vector<Marker> markers = {};            ///< their poses are T_world_marker
+
+  /// The markers, by which cameras are located; world frame.
+  std::vector<ObjectFeature> features() const;
 };
 
 /// Reads a board, or the file that `value` names instead, relative to `folder`; adds that file to

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bop_ply.hpp"
+#include "object_looks.hpp"
 #include "vantage/raycore/file.hpp"
 #include "vantage/raycore/image_io.hpp"
 
@@ -25,9 +26,10 @@ double millimetres(double metres) {
 }
 
 /// Row by row, translation in mm.
-Json matrix_json(const Eigen::Quaterniond& rotation) {
+Json matrix_json(const Pose& motion) {
   Eigen::Matrix4d matrix = Eigen::Matrix4d::Identity();
-  matrix.topLeftCorner<3, 3>() = rotation.toRotationMatrix();
+  matrix.topLeftCorner<3, 3>() = motion.rotation();
+  matrix.topRightCorner<3, 1>() = kMm * motion.translation();
   Json numbers = Json::array();
   for (int i = 0; i < 16; ++i) numbers.push_back(matrix(i / 4, i % 4));
   return numbers;
@@ -40,7 +42,7 @@ Json vector_json(const Eigen::Vector3d& v) {
 void add_symmetries(const Symmetries& symmetries, Json& info) {
   if (!symmetries.discrete.empty()) {
     Json& list = info["symmetries_discrete"] = Json::array();
-    for (const Eigen::Quaterniond& q : symmetries.discrete) list.push_back(matrix_json(q));
+    for (const Pose& motion : symmetries.discrete) list.push_back(matrix_json(motion));
   }
   if (!symmetries.continuous.empty()) {
     Json& list = info["symmetries_continuous"] = Json::array();
@@ -75,22 +77,22 @@ Json info_json(const BopModel& model) {
 
 std::vector<BopModel> bop_models(const Workcell& workcell) {
   std::vector<BopModel> models;
+  ObjectLooks looks;
   const auto next_id = [&] { return int(models.size()) + 1; };
-  for (const auto& type : workcell.knowledge.types()) {
-    models.push_back({next_id(), type->name, type->shape, type->symmetries});
+  for (const TypePtr& type : workcell.knowledge->types()) {
+    models.push_back({next_id(), type->name, looks.of(type), type->symmetries, type, type->mesh});
   }
   for (const PlacedObject& object : workcell.known_objects) {
-    const bool known = std::any_of(models.begin(), models.end(), [&](const BopModel& model) {
-      return model.shape == object.shape;
-    });
-    if (!known) models.push_back({next_id(), object.name, object.shape, {}});
+    if (object.type != nullptr) continue;
+    models.push_back({next_id(), object.name, looks.of(object), {}, nullptr, object.mesh});
   }
   return models;
 }
 
 const BopModel& model_of(const std::vector<BopModel>& models, const PlacedObject& object) {
-  return *std::find_if(models.begin(), models.end(),
-                       [&](const BopModel& model) { return model.shape == object.shape; });
+  return *std::find_if(models.begin(), models.end(), [&](const BopModel& model) {
+    return model.type == object.type && model.mesh == object.mesh;
+  });
 }
 
 double diameter_m(const TriangleMesh& mesh) {

@@ -6,7 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "object_types.hpp"
 #include "simulator/textured_mesh.hpp"
 #include "workcell.hpp"
 
@@ -17,7 +16,9 @@ struct BopModel {
   int id = 0;  ///< BOP's obj_id, from 1
   std::string name;
   std::shared_ptr<const TexturedMesh> shape;
-  Symmetries symmetries;
+  Symmetries symmetries = {};
+  TypePtr type = {};                              ///< null: the model of an object without a type
+  std::shared_ptr<const TriangleMesh> mesh = {};  ///< that of the type or the object
 };
 
 /// The types of the knowledge base in their order, then each shape of a known object without a

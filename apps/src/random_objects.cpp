@@ -94,8 +94,8 @@ void place_random_objects(Workcell& workcell) {
   std::vector<std::shared_ptr<const TriangleMesh>> meshes;
   for (std::size_t i = 0; i < std::size_t(random.count); ++i) {
     const auto& type = random.types[i % random.types.size()];
-    objects.push_back({names.next(type->name), type->shape, {}, type});
-    meshes.emplace_back(type->shape, &type->shape->mesh);
+    objects.push_back({names.next(type->name), type->mesh, {}, type, type->color});
+    meshes.push_back(type->mesh);
   }
   const std::vector<Pose> poses = poses_of(meshes, workcell);
   for (std::size_t i = 0; i < objects.size(); ++i) {

@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "object_types.hpp"
+#include "vantage/reconstruction/object_type.hpp"
 
 namespace vantage {
 

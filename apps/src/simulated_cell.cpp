@@ -1,5 +1,7 @@
 #include "simulated_cell.hpp"
 
+#include "object_looks.hpp"
+
 namespace vantage {
 namespace {
 
@@ -7,9 +9,14 @@ namespace {
 struct Bodies {
   std::vector<SimulatedBody> shapes;
   std::vector<CellBody> names;
+  ObjectLooks looks = {};
 
+  void add_board(const Board& board) {
+    shapes.push_back({"board", std::make_shared<const TexturedMesh>(board_shape(board)), {}});
+    names.push_back({BodyKind::board, "board", nullptr});
+  }
   void add(BodyKind kind, const PlacedObject& object) {
-    shapes.push_back({object.name, object.shape, object.T_world_object});
+    shapes.push_back({object.name, looks.of(object), object.T_world_object});
     names.push_back({kind, object.name, object.type});
   }
   void add_all(BodyKind kind, const std::vector<PlacedObject>& objects) {
@@ -21,10 +28,7 @@ struct Bodies {
 
 SimulatedCell simulated_cell(const Workcell& workcell) {
   Bodies bodies;
-  if (workcell.board) {
-    bodies.add(BodyKind::board,
-               {"board", std::make_shared<const TexturedMesh>(board_shape(*workcell.board)), {}});
-  }
+  if (workcell.board) bodies.add_board(*workcell.board);
   bodies.add_all(BodyKind::static_structure, workcell.static_structures);
   bodies.add_all(BodyKind::known_object, workcell.known_objects);
   bodies.add_all(BodyKind::foreign_object, workcell.foreign_objects);

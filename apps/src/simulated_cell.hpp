@@ -4,7 +4,6 @@
 #include <string>
 #include <vector>
 
-#include "object_types.hpp"
 #include "simulator/simulated_scene.hpp"
 #include "workcell.hpp"
 
@@ -16,7 +15,7 @@ enum class BodyKind { board, static_structure, known_object, foreign_object };
 struct CellBody {
   BodyKind kind;
   std::string name;
-  std::shared_ptr<const ObjectType> type;  ///< null: of no type of the knowledge base
+  TypePtr type;  ///< null: of no type of the knowledge base
 };
 
 /// The workcell as simulated cameras see it.
@@ -27,8 +26,9 @@ struct SimulatedCell {
 
 /// The board first, then static structures, known objects and foreign objects, each in the order of
 /// the file. Random objects are there if `place_random_objects` put them there.
-/// @throws Error bad_input as `SimulatedScene` and `board_shape` do, and for a cell in which
-/// nothing stands.
+/// Markers are printed on the types that are there.
+/// @throws Error bad_input as `SimulatedScene`, `board_shape` and `ObjectLooks` do, and for a cell
+/// in which nothing stands.
 SimulatedCell simulated_cell(const Workcell& workcell);
 
 }  // namespace vantage

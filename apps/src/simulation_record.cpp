@@ -73,10 +73,10 @@ void prepare_objects(Workcell& workcell, SimulationSettings& settings) {
     if (!settings.types.empty()) {
       random.types.clear();
       for (const std::string& name : settings.types) {
-        random.types.push_back(workcell.knowledge.type(name, "--types"));
+        random.types.push_back(workcell.knowledge->get(name, "--types"));
       }
     } else if (random.types.empty()) {
-      random.types = workcell.knowledge.types();
+      random.types = workcell.knowledge->types();
     }
     if (random.types.empty() && random.count > 0) {
       throw bad_input("--objects", "the workcell has no knowledge_base, so there are no types");

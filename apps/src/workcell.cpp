@@ -113,14 +113,15 @@ void read_settings(const Value& root, const fs::path& folder, Workcell& workcell
   if (root.has("cameras")) workcell.cameras = read_cameras(root["cameras"], workcell);
 }
 
-KnowledgeBase read_knowledge(const Value& value, const fs::path& folder) {
+std::shared_ptr<const FileKnowledgeBase> read_knowledge(const Value& value,
+                                                        const fs::path& folder) {
   std::vector<fs::path> files;
   if (value.is_string()) {
     named_file(value, folder, files);
   } else {
     for (const Value& name : value.elements()) named_file(name, folder, files);
   }
-  return KnowledgeBase(files);
+  return std::make_shared<const FileKnowledgeBase>(files);
 }
 
 /// Adds those that are not there yet.
@@ -133,7 +134,7 @@ void add_files(const std::vector<fs::path>& more, std::vector<fs::path>& files) 
 RandomObjects read_random_objects(const Value& value, const KnowledgeBase& knowledge) {
   RandomObjects random{.count = value["count"].as<int>()};
   for (const Value& name : value["types"].elements()) {
-    random.types.push_back(knowledge.type(name.as<std::string>(), name.place()));
+    random.types.push_back(knowledge.get(name.as<std::string>(), name.place()));
   }
   random.seed = value.get("seed", random.seed);
   random.upright_share = value.get("upright_share", random.upright_share);
@@ -143,10 +144,11 @@ RandomObjects read_random_objects(const Value& value, const KnowledgeBase& knowl
 /// What stands in the cell.
 void read_contents(const Value& root, const fs::path& folder, Workcell& workcell) {
   if (root.has("knowledge_base")) {
-    workcell.knowledge = read_knowledge(root["knowledge_base"], folder);
-    add_files(workcell.knowledge.files(), workcell.files);
+    const auto knowledge = read_knowledge(root["knowledge_base"], folder);
+    add_files(knowledge->files(), workcell.files);
+    workcell.knowledge = knowledge;
   }
-  ObjectReader objects(folder, workcell.knowledge, workcell.files);
+  ObjectReader objects(folder, *workcell.knowledge, workcell.files);
   const auto read_all = [&](const char* key, std::vector<PlacedObject>& to) {
     if (!root.has(key)) return;
     for (const Value& value : root[key].elements()) to.push_back(objects.read(value));
@@ -155,10 +157,10 @@ void read_contents(const Value& root, const fs::path& folder, Workcell& workcell
   read_all("known_objects", workcell.known_objects);
   read_all("foreign_objects", workcell.foreign_objects);
   if (root.has("board")) {
-    workcell.board = read_board(root["board"], workcell.knowledge, folder, workcell.files);
+    workcell.board = read_board(root["board"], *workcell.knowledge, folder, workcell.files);
   }
   if (root.has("random_objects")) {
-    workcell.random_objects = read_random_objects(root["random_objects"], workcell.knowledge);
+    workcell.random_objects = read_random_objects(root["random_objects"], *workcell.knowledge);
   }
 }
 

@@ -1,16 +1,17 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "board.hpp"
-#include "object_types.hpp"
 #include "random_objects.hpp"
 #include "vantage/planner/view_candidates.hpp"
 #include "vantage/raycore/box.hpp"
 #include "vantage/raycore/camera.hpp"
+#include "vantage/reconstruction/knowledge_base.hpp"
 #include "vantage/volume/volume_options.hpp"
 #include "workcell_objects.hpp"
 
@@ -36,8 +37,10 @@ struct Workcell {
   std::vector<double> candidate_radii_m = {};  ///< empty: from the work area's size
   int candidates_per_half_sphere = 20;
   std::optional<Reach> reach = {};
-  KnowledgeBase knowledge = {};
-  std::vector<PlacedObject> static_structures = {};  ///< may lie outside the work area
+  std::shared_ptr<const KnowledgeBase> knowledge =
+      std::make_shared<const MemoryKnowledgeBase>();  ///< never null; without types if there is
+                                                      ///< none
+  std::vector<PlacedObject> static_structures = {};   ///< may lie outside the work area
   std::vector<PlacedObject> known_objects = {};
   std::vector<PlacedObject> foreign_objects =
       {};  ///< stand there too, but only the simulator knows
@@ -54,7 +57,7 @@ struct Workcell {
 /// @throws Error bad_input with file, line and key for anything that is not as the schema has it, a
 /// box without volume, a quaternion that is none, ranges the wrong way round, a name used twice, a
 /// type that the knowledge base does not have, a marker of the board that a type has too, and a
-/// file that is not there; with the mesh file for one that is damaged; as `KnowledgeBase` does.
+/// file that is not there; with the mesh file for one that is damaged; as `FileKnowledgeBase` does.
 Workcell load_workcell(const std::filesystem::path& path);
 
 }  // namespace vantage

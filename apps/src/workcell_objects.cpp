@@ -43,13 +43,13 @@ PlacedObject ObjectReader::read(const Value& value) {
   }
   if (value.has("pose")) object.T_world_object = read_pose(value["pose"]);
   if (value.has("type")) {
-    object.type = knowledge_.type(value["type"].as<std::string>(), value["type"].place());
-    object.shape = object.type->shape;
+    object.type = knowledge_.get(value["type"].as<std::string>(), value["type"].place());
+    object.mesh = object.type->mesh;
+    object.color = object.type->color;
     return object;
   }
-  TexturedMesh shape{read_mesh_of(value, folder_, files_)};
-  if (value.has("color")) shape.color = read_color(value["color"]);
-  object.shape = std::make_shared<const TexturedMesh>(std::move(shape));
+  object.mesh = std::make_shared<const TriangleMesh>(read_mesh_of(value, folder_, files_));
+  if (value.has("color")) object.color = read_color(value["color"]);
   return object;
 }
 

@@ -6,20 +6,23 @@
 #include <vector>
 
 #include "documents/document_value.hpp"
-#include "object_types.hpp"
 #include "vantage/raycore/world_model.hpp"
+#include "vantage/reconstruction/knowledge_base.hpp"
 
 namespace vantage {
 
 /// What the workcell file puts somewhere.
 struct PlacedObject {
-  std::string name;                                ///< unique in the workcell
-  std::shared_ptr<const TexturedMesh> shape = {};  ///< never null; shared by all objects of a type
+  std::string name;                               ///< unique in the workcell
+  std::shared_ptr<const TriangleMesh> mesh = {};  ///< never null; that of its type, if it has one
   Pose T_world_object = {};
-  std::shared_ptr<const ObjectType> type = {};  ///< null: of no type of the knowledge base
+  TypePtr type = {};                              ///< null: of no type of the knowledge base
+  Eigen::Vector3f color = {0.75f, 0.75f, 0.75f};  ///< sRGB, 0 to 1; that of its type
 
   /// As planner and volume see it; shares the mesh.
-  KnownObject known() const { return {name, {shape, &shape->mesh}, T_world_object}; }
+  KnownObject known() const {
+    return {name, mesh, T_world_object, type == nullptr ? "" : type->name};
+  }
 };
 
 std::vector<KnownObject> known(const std::vector<PlacedObject>& objects);

@@ -1,9 +1,5 @@
 #include "documents/marker_reader.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-
 #include "documents/value_readers.hpp"
 
 namespace vantage {
@@ -42,22 +38,6 @@ Marker read_marker(const Value& feature, const std::optional<Eigen::Vector3d>& b
     throw feature["face"].error("only a box has faces; give the marker's pose instead");
   }
   return marker;
-}
-
-double texel_for(std::span<const Marker> markers) {
-  constexpr double kTexelsAcross = 160;
-  double smallest_m = 1;
-  for (const Marker& marker : markers) smallest_m = std::min(smallest_m, marker.size_m);
-  return smallest_m / kTexelsAcross;
-}
-
-void MarkerOwners::take(const Marker& marker, const std::string& owner, const std::string& place) {
-  const auto [first, is_new] =
-      owners_.try_emplace({marker_family(marker.dictionary), marker.id}, owner);
-  if (is_new) return;
-  throw bad_input(place, fmt::format("marker {} of {} is that of {}; each marker may be there once "
-                                     "only",
-                                     marker.id, marker.dictionary, first->second));
 }
 
 }  // namespace vantage

@@ -5,6 +5,7 @@
 
 #include "bop_models.hpp"
 #include "bop_ply.hpp"
+#include "simulator/marker_print.hpp"
 #include "vantage/raycore/solids.hpp"
 #include "support/test_data.hpp"
 #include "vantage/raycore/mesh_io.hpp"
@@ -29,7 +30,9 @@ BopModel cube(int id) {
           "cube",
           std::make_shared<const TexturedMesh>(with_markers(
               box_solid({0.05, 0.05, 0.05}), {0.8f, 0.1f, 0.1f}, {&marker, 1}, "cube")),
-          {{Eigen::Quaterniond(Eigen::AngleAxisd(M_PI, Eigen::Vector3d::UnitZ()))}, {}}};
+          {{Pose::from_rotation(Eigen::AngleAxisd(M_PI, Eigen::Vector3d::UnitZ()).toRotationMatrix(),
+                               {0.01, 0, 0})},
+           {}}};
 }
 
 BopModel tin(int id) {
@@ -64,6 +67,7 @@ TEST_CASE("models are written in millimetres, with what models_info.json has to 
   CHECK(turn[0] == doctest::Approx(-1));
   CHECK(turn[5] == doctest::Approx(-1));
   CHECK(turn[10] == doctest::Approx(1));
+  CHECK(turn[3] == doctest::Approx(10));  // mm
   CHECK(turn[15] == 1);
   CHECK_FALSE(box.contains("symmetries_continuous"));
   const auto& round = info["2"]["symmetries_continuous"][0];

@@ -54,10 +54,10 @@ TEST_CASE("a bundled cell is the same where it was moved to, without the files t
     CHECK(is.type->name == "nut");
     CHECK((is.T_world_object.translation() - was.T_world_object.translation()).norm() < 1e-12);
     CHECK((is.T_world_object.rotation() - was.T_world_object.rotation()).norm() < 1e-12);
-    CHECK(is.shape->mesh.vertices() == was.shape->mesh.vertices());
+    CHECK(is.mesh->vertices() == was.mesh->vertices());
   }
-  CHECK(moved.static_structures[0].shape->mesh.vertices() ==
-        cell.static_structures[0].shape->mesh.vertices());
+  CHECK(moved.static_structures[0].mesh->vertices() ==
+        cell.static_structures[0].mesh->vertices());
   CHECK(moved.foreign_objects.size() == 1);
   CHECK(moved.board->size_m == cell.board->size_m);
 }

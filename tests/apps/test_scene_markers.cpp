@@ -28,7 +28,7 @@ std::map<std::string, std::vector<PlacedMarker>> markers_of(const Workcell& cell
     markers[marker.dictionary].push_back({marker, {}});
   }
   for (const PlacedObject& object : cell.known_objects) {
-    for (const Marker& marker : object.type->markers) {
+    for (const Marker& marker : object.type->markers()) {
       markers[marker.dictionary].push_back({marker, object.T_world_object});
     }
   }

@@ -320,7 +320,7 @@ TEST_CASE("bin: its parts lie inside of it") {
   CHECK(cell.known_objects.size() >= 5);
   for (const PlacedObject& object : cell.known_objects) {
     CAPTURE(object.name);
-    for (const Eigen::Vector3f& vertex : object.shape->mesh.vertices()) {
+    for (const Eigen::Vector3f& vertex : object.mesh->vertices()) {
       const Eigen::Vector3d p = object.T_world_object * vertex.cast<double>();
       CHECK(Box({-0.185, -0.115, 0.005 - 1e-6}, {0.185, 0.115, 0.2}).contains(p));
     }

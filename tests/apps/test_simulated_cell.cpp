@@ -42,8 +42,8 @@ Workcell with_board(const TemporaryFolder& folder, const std::string& more = "")
 }
 
 bool close(const PlacedObject& a, const PlacedObject& b) {
-  return closer_than(0.0019, CollisionShape(a.shape->mesh), a.T_world_object,
-                     CollisionShape(b.shape->mesh), b.T_world_object);
+  return closer_than(0.0019, CollisionShape(*a.mesh), a.T_world_object, CollisionShape(*b.mesh),
+                     b.T_world_object);
 }
 
 }  // namespace
@@ -65,9 +65,10 @@ TEST_CASE("a simulated cell has the board first, then the lists in their order")
     CHECK(cell.bodies[i].name == expected[i].second);
     CHECK(cell.scene.bodies()[i].name == expected[i].second);
   }
-  CHECK(cell.bodies[2].type == workcell.knowledge.type("cube", ""));
+  CHECK(cell.bodies[2].type == workcell.knowledge->find("cube"));
   CHECK(cell.bodies[3].type == nullptr);
-  CHECK(cell.scene.bodies()[2].shape == workcell.known_objects[0].shape);
+  CHECK(cell.scene.bodies()[2].shape->mesh.vertices() ==
+        workcell.known_objects[0].mesh->vertices());
 }
 
 TEST_CASE("a ray from above meets the board's top at z = 0, a cube's at its height") {

@@ -134,7 +134,7 @@ TEST_CASE("boxes and meshes become objects at their poses") {
                        "known_objects:\n"
                        "  - {name: tin, mesh: meshes/arm.stl}\n");
   REQUIRE(cell.static_structures.size() == 2);
-  CHECK(cell.static_structures[0].shape->mesh.triangles().size() == 12);
+  CHECK(cell.static_structures[0].mesh->triangles().size() == 12);
   CHECK(cell.static_structures[0].T_world_object.translation().norm() == 0);
   const KnownObject arm = cell.static_structures[1].known();
   REQUIRE(arm.mesh->triangles().size() == 1);
@@ -142,7 +142,7 @@ TEST_CASE("boxes and meshes become objects at their poses") {
   CHECK((corner - Eigen::Vector3d(1, 0, 0)).norm() < 1e-6);
   CHECK((arm.T_world_object * corner - Eigen::Vector3d(9, 1, 0)).norm() < 1e-6);
   REQUIRE(cell.known_objects.size() == 1);
-  CHECK(cell.known_objects[0].shape->mesh.corner(0, 1).x() == 1000);
+  CHECK(cell.known_objects[0].mesh->corner(0, 1).x() == 1000);
   CHECK(cell.files == std::vector{folder / "cell.yaml", folder / "meshes/arm.stl"});
 }
 

@@ -42,7 +42,7 @@ std::string board(const std::string& markers) {
 
 }  // namespace
 
-TEST_CASE("objects of a type share its shape, and the planner gets its mesh") {
+TEST_CASE("objects of a type share its mesh, and the planner gets it") {
   TemporaryFolder folder;
   const Workcell cell =
       load(folder, std::string(kBase) +
@@ -52,14 +52,16 @@ TEST_CASE("objects of a type share its shape, and the planner gets its mesh") {
                        "static_structures: [{name: c, type: ball}]\n"
                        "foreign_objects: [{name: d, type: cube}]\n");
   REQUIRE(cell.known_objects.size() == 2);
-  CHECK(cell.known_objects[0].type == cell.knowledge.type("cube", ""));
-  CHECK(cell.known_objects[0].shape == cell.known_objects[1].shape);
+  CHECK(cell.known_objects[0].type == cell.knowledge->find("cube"));
+  CHECK(cell.known_objects[0].mesh == cell.known_objects[1].mesh);
+  CHECK(cell.known_objects[0].mesh == cell.known_objects[0].type->mesh);
   CHECK(cell.static_structures[0].type->name == "ball");
   CHECK(cell.foreign_objects[0].type->name == "cube");
   const std::vector<KnownObject> objects = known(cell.known_objects);
   REQUIRE(objects.size() == 2);
   CHECK(objects[1].name == "b");
-  CHECK(objects[1].mesh.get() == &cell.known_objects[1].shape->mesh);
+  CHECK(objects[1].mesh == cell.known_objects[1].mesh);
+  CHECK(objects[1].type == "cube");
   CHECK(objects[1].T_world_object.translation() == Eigen::Vector3d(1, 2, 3));
   CHECK(cell.files == std::vector{folder / "cell.yaml", folder / "types.yaml"});
 }
@@ -69,9 +71,10 @@ TEST_CASE("a known object's markers are where its pose puts them") {
   const auto red = std::find_if(cell.known_objects.begin(), cell.known_objects.end(),
                                 [](const PlacedObject& object) { return object.name == "red"; });
   REQUIRE(red != cell.known_objects.end());
-  const auto front = std::find_if(red->type->markers.begin(), red->type->markers.end(),
+  const std::vector<Marker> markers = red->type->markers();
+  const auto front = std::find_if(markers.begin(), markers.end(),
                                   [](const Marker& marker) { return marker.id == 13; });
-  REQUIRE(front != red->type->markers.end());
+  REQUIRE(front != markers.end());
   const auto corners = front->corners();  // from the upper left, clockwise
   const double y = 0.06 - 0.025, h = front->size_m / 2;
   const Eigen::Vector3d expected[] = {
@@ -85,7 +88,7 @@ TEST_CASE("a knowledge base of several files; one that is named twice counts onc
   TemporaryFolder folder;
   folder.write("more.yaml", "object_types: [{name: b, shape: {sphere: {radius_m: 1}}}]\n");
   const Workcell cell = load(folder, "knowledge_base: [types.yaml, more.yaml, types.yaml]\n");
-  CHECK(cell.knowledge.types().size() == 3);
+  CHECK(cell.knowledge->types().size() == 3);
   CHECK(cell.files ==
         std::vector{folder / "cell.yaml", folder / "types.yaml", folder / "more.yaml"});
 }
@@ -98,9 +101,9 @@ TEST_CASE("shapes and colours of objects without a type") {
                              "  - {name: b, box: {min_m: [0, 0, 0], max_m: [1, 1, 1]}}\n");
   REQUIRE(cell.foreign_objects.size() == 2);
   CHECK(cell.foreign_objects[0].type == nullptr);
-  CHECK(cell.foreign_objects[0].shape->color == Eigen::Vector3f(1, 0, 0.5f));
-  CHECK(cell.foreign_objects[0].shape->mesh.triangles().size() > 12);
-  CHECK(cell.foreign_objects[1].shape->color == TexturedMesh().color);
+  CHECK(cell.foreign_objects[0].color == Eigen::Vector3f(1, 0, 0.5f));
+  CHECK(cell.foreign_objects[0].mesh->triangles().size() > 12);
+  CHECK(cell.foreign_objects[1].color == TexturedMesh().color);
 }
 
 TEST_CASE("objects that contradict themselves or others are refused") {
@@ -141,6 +144,11 @@ TEST_CASE("a board's markers lie on z = 0 and turn around z") {
   CHECK((upright[2] - Eigen::Vector3d(0.22, -0.12, 0)).norm() < 1e-12);
   const auto turned = cell.board->markers[1].corners();
   CHECK((turned[0] - Eigen::Vector3d(-0.025, 0.075, 0)).norm() < 1e-12);
+
+  const std::vector<ObjectFeature> features = cell.board->features();
+  REQUIRE(features.size() == 2);
+  CHECK(features[1].key == FeatureKey{"aruco", "4X4/8"});
+  CHECK(features[1].points()[0] == turned[0]);
 }
 
 TEST_CASE("a board may be a file of its own") {
