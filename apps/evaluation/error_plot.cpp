@@ -1,0 +1,209 @@
+#include "evaluation/error_plot.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "evaluation/plot_axis.hpp"
+
+namespace vantage {
+namespace {
+
+constexpr double kPanelWidth = 300, kPanelHeight = 300;  // of the axes' frame
+constexpr double kLeft = 74, kRight = 22, kTop = 108, kBottom = 62;
+constexpr double kMark = 4.5;  // half its size
+
+/// Okabe and Ito's colours, of different brightness, too.
+struct Style {
+  const char* color;
+  const char* dashes;
+};
+constexpr std::array<Style, 5> kStyles{{{"#d55e00", "7 4"},
+                                        {"#0072b2", "none"},
+                                        {"#009e73", "2 3"},
+                                        {"#cc79a7", "9 3 2 3"},
+                                        {"#555555", "4 2"}}};
+
+std::string escaped(const std::string& text) {
+  std::string result;
+  for (const char c : text) {
+    switch (c) {
+      case '&':
+        result += "&amp;";
+        break;
+      case '<':
+        result += "&lt;";
+        break;
+      case '>':
+        result += "&gt;";
+        break;
+      case '"':
+        result += "&quot;";
+        break;
+      default:
+        result += c;
+    }
+  }
+  return result;
+}
+
+std::string text(double x, double y, const char* kind, const std::string& content) {
+  return fmt::format("<text class=\"{}\" x=\"{:.1f}\" y=\"{:.1f}\">{}</text>\n", kind, x, y,
+                     escaped(content));
+}
+
+std::string line(double x0, double y0, double x1, double y1, const std::string& look) {
+  return fmt::format("<line x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\" {}/>\n", x0, y0,
+                     x1, y1, look);
+}
+
+/// Square, disc, triangle, diamond, cross: told apart without colour. Every other one is hollow.
+std::string mark(std::size_t series, double x, double y) {
+  const char* color = kStyles[series % kStyles.size()].color;
+  const std::string hollow = fmt::format("fill=\"#fff\" stroke=\"{}\" stroke-width=\"1.8\"", color);
+  const std::string full = fmt::format("fill=\"{0}\" stroke=\"{0}\" stroke-width=\"1\"", color);
+  const double r = kMark;
+  const auto path = [&](const std::string& shape, const std::string& look) {
+    return fmt::format("<path transform=\"translate({:.1f} {:.1f})\" d=\"{}\" {}/>\n", x, y, shape,
+                       look);
+  };
+  switch (series % kStyles.size()) {
+    case 0:
+      return path(fmt::format("M{0} {0}H-{0}V-{0}H{0}Z", r), hollow);
+    case 1:
+      return fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{}\" {}/>\n", x, y, r, full);
+    case 2:
+      return path(fmt::format("M0 -{0}L{0} {1}H-{0}Z", r + 1, r), hollow);
+    case 3:
+      return path(fmt::format("M0 -{0}L{0} 0L0 {0}L-{0} 0Z", r + 1), full);
+    default:
+      return path(fmt::format("M-{0} -{0}L{0} {0}M-{0} {0}L{0} -{0}", r), hollow);
+  }
+}
+
+/// Where a panel's values are on the page.
+struct Frame {
+  double left;
+  int first_x, last_x;
+  PlotAxis axis;
+
+  double x(double value) const {
+    return left + kPanelWidth * (value - first_x + 0.5) / (last_x - first_x + 1);
+  }
+  double y(double value) const { return kTop + kPanelHeight * (1 - axis.share(value)); }
+  double bottom() const { return kTop + kPanelHeight; }
+};
+
+Frame frame_of(const PlotPanel& panel, double left) {
+  std::vector<double> means, reach;
+  int first = 0, last = 0;
+  for (const PlotSeries& series : panel.series) {
+    for (const PlotPoint& point : series.points) {
+      first = means.empty() ? point.x : std::min(first, point.x);
+      last = means.empty() ? point.x : std::max(last, point.x);
+      means.push_back(point.mean);
+      reach.push_back(point.mean + point.deviation);
+    }
+  }
+  return {left, first, last, PlotAxis(means, reach)};
+}
+
+std::string draw_axes(const PlotPanel& panel, const Frame& frame, const std::string& x_label) {
+  const double right = frame.left + kPanelWidth, middle = frame.left + kPanelWidth / 2;
+  std::string svg = text(middle, kTop - 16, "panel", panel.title);
+  for (const double tick : frame.axis.ticks()) {
+    svg += line(frame.left, frame.y(tick), right, frame.y(tick), "class=\"grid\"");
+    svg += text(frame.left - 8, frame.y(tick) + 4, "tick-y", fmt::format("{:.10g}", tick));
+  }
+  for (int x = frame.first_x; x <= frame.last_x; ++x) {
+    svg += line(frame.x(x), frame.bottom(), frame.x(x), frame.bottom() + 5, "class=\"axis\"");
+    svg += text(frame.x(x), frame.bottom() + 20, "tick-x", std::to_string(x));
+  }
+  svg += line(frame.left, kTop, frame.left, frame.bottom(), "class=\"axis\"");
+  svg += line(frame.left, frame.bottom(), right, frame.bottom(), "class=\"axis\"");
+  svg += text(middle, frame.bottom() + 44, "label", x_label);
+  return svg + fmt::format(
+                   "<text class=\"label\" transform=\"translate({:.1f} {:.1f}) "
+                   "rotate(-90)\">{}</text>\n",
+                   frame.left - 54, kTop + kPanelHeight / 2, escaped(panel.unit));
+}
+
+std::string draw_bar(const PlotPoint& point, double x, const Frame& frame, const char* color) {
+  const std::string look = fmt::format("stroke=\"{}\" stroke-width=\"1.4\"", color);
+  const double low = point.mean - point.deviation;
+  const double top = frame.y(point.mean + point.deviation), bottom = frame.y(low);
+  std::string svg = line(x, top, x, bottom, look) + line(x - 4, top, x + 4, top, look);
+  if (low >= frame.axis.low()) svg += line(x - 4, bottom, x + 4, bottom, look);
+  return svg;
+}
+
+/// Series stand a little beside each other, so that no bar hides another one.
+std::string draw_series(const PlotPanel& panel, std::size_t index, const Frame& frame) {
+  const Style& style = kStyles[index % kStyles.size()];
+  const double step = std::min(0.2, 0.6 / double(panel.series.size()));
+  const double beside = step * (double(index) - 0.5 * double(panel.series.size() - 1));
+  std::string bars, marks, way;
+  for (const PlotPoint& point : panel.series[index].points) {
+    const double x = frame.x(point.x + beside), y = frame.y(point.mean);
+    if (point.deviation > 0) bars += draw_bar(point, x, frame, style.color);
+    marks += mark(index, x, y);
+    way += fmt::format("{}{:.1f} {:.1f}", way.empty() ? "M" : "L", x, y);
+  }
+  if (way.empty()) return "";
+  return fmt::format(
+             "<path d=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"1.8\" "
+             "stroke-dasharray=\"{}\"/>\n",
+             way, style.color, style.dashes) +
+         bars + marks;
+}
+
+std::string draw_legend(const std::vector<PlotSeries>& series, double x) {
+  std::string svg;
+  for (std::size_t i = 0; i < series.size(); ++i) {
+    const Style& style = kStyles[i % kStyles.size()];
+    svg += line(x, 62, x + 40, 62,
+                fmt::format("stroke=\"{}\" stroke-width=\"1.8\" stroke-dasharray=\"{}\"",
+                            style.color, style.dashes));
+    svg += mark(i, x + 20, 62) + text(x + 48, 66, "legend", series[i].name);
+    x += 76 + 7.5 * double(series[i].name.size());
+  }
+  return svg;
+}
+
+constexpr const char* kLooks =
+    "text{font-family:'DejaVu Sans',Helvetica,Arial,sans-serif;fill:#222;font-size:12px}\n"
+    ".title{font-size:17px;font-weight:bold}.panel{font-size:14px;text-anchor:middle}\n"
+    ".label,.tick-x{text-anchor:middle}.tick-y{text-anchor:end}.legend{font-size:13px}\n"
+    ".grid{stroke:#ddd;stroke-width:1}.axis{stroke:#222;stroke-width:1.2}\n"
+    ".note{fill:#666;font-size:11px}\n";
+
+}  // namespace
+
+std::string error_plot_svg(const std::string& title, const std::string& x_label,
+                           const std::vector<PlotPanel>& panels) {
+  const double pitch = kLeft + kPanelWidth + kRight;
+  const double width = pitch * double(std::max<std::size_t>(panels.size(), 1));
+  const double height = kTop + kPanelHeight + kBottom + 20;
+  std::string svg = fmt::format(
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:.0f}\" height=\"{1:.0f}\" "
+      "viewBox=\"0 0 {0:.0f} {1:.0f}\">\n<style>{2}</style>\n"
+      "<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n",
+      width, height, kLooks);
+  svg += text(kLeft - 54, 32, "title", title);
+  if (!panels.empty()) svg += draw_legend(panels.front().series, kLeft - 54);
+  bool logarithmic = false;
+  for (std::size_t i = 0; i < panels.size(); ++i) {
+    const Frame frame = frame_of(panels[i], double(i) * pitch + kLeft);
+    logarithmic = logarithmic || frame.axis.logarithmic();
+    svg += draw_axes(panels[i], frame, x_label);
+    for (std::size_t s = 0; s < panels[i].series.size(); ++s)
+      svg += draw_series(panels[i], s, frame);
+  }
+  svg += text(kLeft - 54, height - 12, "note",
+              std::string("Means; bars: one standard deviation of the sample each way") +
+                  (logarithmic ? ", down to the axis where they leave the logarithmic scale" : ""));
+  return svg + "</svg>\n";
+}
+
+}  // namespace vantage

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <vector>
+
+namespace vantage {
+
+/// A vertical axis: from values to shares of its height, 0 at the bottom and 1 at the top.
+/// Logarithmic where values differ by more than ten times and none is zero.
+class PlotAxis {
+ public:
+  /// @param values that have to be on the axis, finite and not negative.
+  /// @param reach  the upper ends of their error bars.
+  PlotAxis(const std::vector<double>& values, const std::vector<double>& reach);
+
+  bool logarithmic() const noexcept { return logarithmic_; }
+  double low() const noexcept { return low_; }
+
+  /// Of values below the axis: 0.
+  double share(double value) const;
+
+  /// Round values, ascending, for labels: 1, 2 and 5 times powers of ten; of a long logarithmic
+  /// axis the powers alone.
+  std::vector<double> ticks() const;
+
+ private:
+  bool logarithmic_;
+  double low_ = 0, high_ = 1, step_ = 0.2;
+};
+
+}  // namespace vantage
