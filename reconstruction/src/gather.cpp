@@ -73,7 +73,9 @@ class ViewReader {
  public:
   ViewReader(const CameraView& view, const KnowledgeBase& knowledge)
       : view_(view), knowledge_(knowledge) {
-    if (view.T_world_cam) T_cam_world_ = view.T_world_cam->inverse();
+    if (!view.T_world_cam) return;
+    T_cam_world_ = view.T_world_cam->inverse();
+    lens_ = std::make_shared<const WideLens>(view.lens);
   }
 
   /// Why `sighting` cannot be used; empty, and `sighting` filled in, if it can.
@@ -104,6 +106,7 @@ class ViewReader {
     sighting.view = &view_;
     sighting.observation = &observation;
     sighting.T_cam_world = T_cam_world_;
+    sighting.lens = lens_;
     return {};
   }
 
@@ -111,6 +114,7 @@ class ViewReader {
   const CameraView& view_;
   const KnowledgeBase& knowledge_;
   Pose T_cam_world_;
+  std::shared_ptr<const WideLens> lens_;
   std::map<FeatureKey, std::vector<std::size_t>> by_key_;
 };
 

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <memory>
 #include <span>
 #include <vector>
 
 #include "vantage/reconstruction/reconstruct.hpp"
+#include "wide_lens.hpp"
 
 // Private: what the methods of reconstruction have in common before and after the work itself.
 namespace vantage::detail {
@@ -15,6 +17,7 @@ struct Sighting {
   const CameraView* view = nullptr;
   const Observation* observation = nullptr;
   Pose T_cam_world = {};
+  std::shared_ptr<const WideLens> lens = {};  ///< the view's
   /// Features with its key and of its kind: as many points, a frame for a pose (a marker has one
   /// too), labels for a label. In the order of the knowledge base, never empty.
   std::vector<const TypeFeature*> features = {};
