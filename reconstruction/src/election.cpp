@@ -1,0 +1,305 @@
+#include "election.hpp"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "pose_fit.hpp"
+#include "symmetry.hpp"
+
+namespace vantage::detail {
+namespace {
+
+constexpr int kFewestPoints = 4;       // three points fit several poses exactly
+constexpr double kSurfaceM = 0.002;    // what a mesh and a label's place may be off by
+constexpr std::size_t kMostWays = 12;  // of one object
+constexpr std::size_t kFirm = 3;       // sightings that are no coincidence
+
+/// How far a pose that was fitted to these sums may be off.
+double slack_of(const Explanation& explanation, double most) {
+  const Matrix6d covariance = covariance_of(explanation.sum.information);
+  return std::min(kSurfaceM + std::sqrt(covariance.topLeftCorner<3, 3>().trace()), most);
+}
+
+std::size_t common(const Explanation& a, const Explanation& b) {
+  std::size_t count = 0;
+  for (const Reading* reading : a.readings) {
+    count += std::any_of(b.readings.begin(), b.readings.end(),
+                         [&](const Reading* other) { return other->number == reading->number; });
+  }
+  return count;
+}
+
+/// Chi-square of `way`, less that of `first`, over what both explain.
+double excess(const Explanation& way, const Explanation& first) {
+  double sum = 0;
+  for (std::size_t i = 0; i < way.readings.size(); ++i) {
+    for (std::size_t k = 0; k < first.readings.size(); ++k) {
+      if (way.readings[i]->number != first.readings[k]->number) continue;
+      sum += way.each[i].chi_square - first.each[k].chi_square;
+    }
+  }
+  return sum;
+}
+
+bool same(const Way& a, const Way& b) {
+  return a.explanation.type() == b.explanation.type() &&
+         equivalent(*a.explanation.type(), a.explanation.T_world_object,
+                    b.explanation.T_world_object);
+}
+
+/// Fits a pose to a cluster, leaving out, one by one, what does not go with the rest.
+std::optional<Explanation> trimmed(std::vector<const Reading*> readings, const Pose& start,
+                                   const Bounds& bounds) {
+  while (!readings.empty()) {
+    const auto refined = refine(readings, start, bounds.least_sigma_px());
+    if (!refined) return std::nullopt;
+    double worst = 1;
+    std::size_t out = readings.size();
+    for (std::size_t i = 0; i < readings.size(); ++i) {
+      const double part = refined->each[i].chi_square / bounds.largest_chi_square(*readings[i]);
+      if (part <= worst) continue;
+      worst = part;
+      out = i;
+    }
+    if (out == readings.size()) return explain(readings, refined->T_world_object, bounds);
+    readings.erase(readings.begin() + std::ptrdiff_t(out));
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+Election::Election(const Ballot& ballot, const ReconstructOptions& options, const VoteGrid& grid)
+    : ballot_(&ballot),
+      options_(options),
+      bounds_{options.inlier_px},
+      free_(ballot.sightings.size(), true),
+      reasons_(ballot.sightings.size()) {
+  std::vector<Vote> votes = cast_votes(ballot, bounds_);
+  witnesses_ = std::make_unique<Witnesses>(ballot, votes);
+  poll_ = std::make_unique<Poll>(std::move(votes), ballot.sightings.size(), grid);
+  for (const Reading& reading : ballot.readings) {
+    readings_of_[&reading.type()].push_back(&reading);
+  }
+  rank_votes();
+}
+
+void Election::rank_votes() {
+  said_.resize(poll_->size());
+  tbb::parallel_for(std::size_t(0), poll_->size(), [&](std::size_t i) {
+    if (!poll_->open(i)) return;
+    const Vote& vote = poll_->vote(i);
+    const Verdict verdict =
+        witnesses_->verdict(*vote.type(), vote.T_world_object, options_.merge_m, free_);
+    said_[i] = double(verdict.labels.size()) - double(verdict.against);
+  });
+  for (std::size_t i = 0; i < poll_->size(); ++i) {
+    if (poll_->open(i)) queue_.push_back({height(i), i});
+  }
+  std::make_heap(queue_.begin(), queue_.end());
+}
+
+double Election::height(std::size_t vote) const {
+  return poll_->height(vote) + said_[vote];
+}
+
+std::optional<Elected> Election::next() {
+  while (!queue_.empty()) {
+    std::pop_heap(queue_.begin(), queue_.end());
+    const Entry top = queue_.back();
+    queue_.pop_back();
+    if (!poll_->open(top.vote)) continue;
+    const double now = height(top.vote);
+    if (now < top.height) {  // others were withdrawn since
+      queue_.push_back({now, top.vote});
+      std::push_heap(queue_.begin(), queue_.end());
+      continue;
+    }
+    if (auto elected = elected_around(top.vote)) return elected;
+  }
+  return std::nullopt;
+}
+
+std::optional<Elected> Election::elected_around(std::size_t vote) {
+  auto first = way_from(vote);
+  if (!first) {
+    drop(vote, "no pose of an object explains it");
+    return std::nullopt;
+  }
+  Elected elected = ways(std::move(*first));
+  const Way& best = elected.front();
+  if (best.net() <= 0) {
+    drop_votes_for(best, "as many observations speak against the object that it would be");
+    poll_->withdraw(vote);
+    return std::nullopt;
+  }
+  if (taken(best)) {
+    drop_votes_for(best, "an object of the type that it would be is there already");
+    poll_->withdraw(vote);
+    return std::nullopt;
+  }
+  accept(elected);
+  return elected;
+}
+
+std::optional<Way> Election::way_from(std::size_t vote) {
+  const Cluster cluster = poll_->cluster_around(vote);
+  const auto start = trimmed(cluster.readings, cluster.T_world_object, bounds_);
+  if (!start) return std::nullopt;
+  const ObjectType& type = *start->type();
+  auto grown =
+      grow(start->readings, start->T_world_object, pool(type, start->T_world_object), bounds_);
+  if (!grown || grown->sum.points < kFewestPoints) return std::nullopt;
+  Verdict verdict =
+      witnesses_->verdict(type, grown->T_world_object, slack_of(*grown, options_.merge_m), free_);
+  return Way{std::move(*grown), std::move(verdict)};
+}
+
+/// Readings that the object may have: those whose first point, or whose frame, is as near to the
+/// object's middle as its body reaches.
+std::vector<const Reading*> Election::pool(const ObjectType& type,
+                                           const Pose& T_world_object) const {
+  const TypeBody& body = witnesses_->body(type);
+  const Eigen::Vector3d centre = T_world_object * body.centre();
+  std::vector<const Reading*> near;
+  for (const Reading* reading : readings_of_.at(&type)) {
+    if (!free_[reading->number]) continue;
+    const Sighting& sighting = *reading->sighting;
+    const Eigen::Vector3d p = sighting.T_cam_world * centre;
+    const double reach = 1.5 * body.radius_m() + options_.merge_m;
+    if (const SeenPoints* seen = sighting.points()) {
+      const Intrinsics& k = sighting.view->lens.intrinsics();
+      if (p.z() < 2 * reach) {  // so near that pixels say little
+        near.push_back(reading);
+        continue;
+      }
+      const double reach_px = std::max(k.fx, k.fy) * reach / (p.z() - reach) + options_.inlier_px;
+      const Eigen::Vector2d away = sighting.view->lens.project(p) - seen->pixels.front();
+      if (away.norm() <= 1.5 * reach_px) near.push_back(reading);
+    } else if ((sighting.pose()->T_cam_feature.translation() - p).norm() <=
+               2 * reach + 3 * sighting.pose()->sigma_m +
+                   reading->T_object_feature.translation().norm()) {
+      near.push_back(reading);
+    }
+  }
+  return near;
+}
+
+bool Election::worth_trying(std::size_t vote, const std::vector<std::size_t>& sightings,
+                            const Elected& ways) const {
+  if (!poll_->open(vote)) return false;
+  const Explanation& first = ways.front().explanation;
+  if (first.readings.size() < kFirm) return true;
+  for (const Way& way : ways) {
+    const Explanation& known = way.explanation;
+    if (poll_->may_be(vote, *known.type(), known.T_world_object)) return false;
+  }
+  // Others have to be for it, too.
+  const Vote& candidate = poll_->vote(vote);
+  std::size_t agree = 0;
+  for (const std::size_t sighting : sightings) {
+    const auto& votes = poll_->votes_of(sighting);
+    agree += std::any_of(votes.begin(), votes.end(), [&](std::size_t other) {
+      return poll_->may_be(other, *candidate.type(), candidate.T_world_object);
+    });
+  }
+  return 2 * agree >= sightings.size();
+}
+
+Elected Election::ways(Way first) {
+  std::vector<std::size_t> sightings;
+  for (const Reading* reading : first.explanation.readings) sightings.push_back(reading->number);
+  Elected ways;
+  ways.push_back(std::move(first));
+  for (const std::size_t sighting : sightings) {
+    for (const std::size_t vote : poll_->votes_of(sighting)) {
+      if (ways.size() >= kMostWays || !worth_trying(vote, sightings, ways)) continue;
+      auto way = way_from(vote);
+      if (!way || way->net() <= 0) continue;
+      const std::size_t shared = common(way->explanation, ways.front().explanation);
+      const bool of_the_same = 2 * shared >= way->explanation.readings.size() &&
+                               2 * shared >= ways.front().explanation.readings.size();
+      const bool known = std::any_of(ways.begin(), ways.end(),
+                                     [&](const Way& other) { return same(*way, other); });
+      if (of_the_same && !known) ways.push_back(std::move(*way));
+    }
+  }
+  weigh(ways);
+  return ways;
+}
+
+/// Normalised votes, times the likelihoods of what was measured; what is against the best is for
+/// none of them. What is beyond the evidence that decides is left out.
+void Election::weigh(Elected& ways) const {
+  const Explanation reference = ways.front().explanation;
+  const auto cost = [&](const Way& way) {
+    return excess(way.explanation, reference) - 2 * std::log(std::max(way.net(), 1e-3));
+  };
+  std::stable_sort(ways.begin(), ways.end(),
+                   [&](const Way& a, const Way& b) { return cost(a) < cost(b); });
+  const double least = cost(ways.front());
+  std::erase_if(ways, [&](const Way& way) { return cost(way) - least > options_.least_evidence; });
+  double sum = 0;
+  for (Way& way : ways) {
+    way.probability = std::exp(-0.5 * (cost(way) - least));
+    sum += way.probability;
+  }
+  const Way& best = ways.front();
+  sum *= 1 + double(best.verdict.against) / std::max(best.net(), 1e-3);
+  for (Way& way : ways) way.probability /= sum;
+}
+
+void Election::drop(std::size_t vote, const std::string& reason) {
+  for (const Reading* reading : poll_->vote(vote).readings) reasons_[reading->number] = reason;
+  poll_->withdraw(vote);
+}
+
+void Election::drop_votes_for(const Way& way, const std::string& reason) {
+  const Explanation& explanation = way.explanation;
+  for (const Reading* reading : explanation.readings) {
+    for (const std::size_t vote : poll_->votes_of(reading->number)) {
+      if (poll_->open(vote) &&
+          poll_->may_be(vote, *explanation.type(), explanation.T_world_object)) {
+        drop(vote, reason);
+      }
+    }
+    reasons_[reading->number] = reason;
+  }
+}
+
+/// Two objects of a type are not in one place.
+bool Election::taken(const Way& way) const {
+  const TypePtr& type = way.explanation.type();
+  const Eigen::Vector3d centre = way.explanation.T_world_object * witnesses_->body(*type).centre();
+  return std::any_of(objects_.begin(), objects_.end(), [&](const auto& object) {
+    if (object.first != type.get()) return false;
+    const Eigen::Vector3d other = object.second * witnesses_->body(*type).centre();
+    return (other - centre).norm() < options_.merge_m;
+  });
+}
+
+void Election::accept(const Elected& elected) {
+  const Way& best = elected.front();
+  const Explanation& explanation = best.explanation;
+  objects_.emplace_back(explanation.type().get(), explanation.T_world_object);
+  for (const Reading* reading : explanation.readings) {
+    free_[reading->number] = false;
+    for (const std::size_t vote : poll_->votes_of(reading->number)) poll_->withdraw(vote);
+  }
+  witnesses_->place(explanation.readings, explanation.T_world_object);
+  for (const auto& [sighting, feature] : best.verdict.labels) free_[sighting] = false;
+}
+
+std::string Election::reason_against(std::size_t sighting) const {
+  if (!reasons_[sighting].empty()) return reasons_[sighting];
+  const Sighting& seen = ballot_->sightings[sighting];
+  if (seen.label()) return "no object that carries " + name_of(seen.observation->key) + " is there";
+  if (poll_->votes_of(sighting).empty()) {
+    return "has no pose of its own, and no object is where it would have to be";
+  }
+  return "no object explains it";
+}
+
+}  // namespace vantage::detail

@@ -1,0 +1,79 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "poll.hpp"
+#include "witnesses.hpp"
+
+namespace vantage::detail {
+
+/// One way to explain sightings, with all that is for and against it.
+struct Way {
+  Explanation explanation;
+  Verdict verdict;
+  double probability = 1;
+
+  /// Votes for it, less those against it.
+  double net() const {
+    return double(explanation.readings.size()) + double(verdict.labels.size()) -
+           double(verdict.against);
+  }
+};
+
+/// Every way to explain the same sightings, the likeliest first.
+using Elected = std::vector<Way>;
+
+/// Takes objects out of the table of votes, the one with most votes first; what it explains has no
+/// other votes from then on. Not thread-safe.
+class Election {
+ public:
+  Election(const Ballot& ballot, const ReconstructOptions& options, const VoteGrid& grid = {});
+
+  /// The next object; none if no vote is left.
+  std::optional<Elected> next();
+
+  /// Why a sighting is of no object that was taken out; to be asked in the end.
+  std::string reason_against(std::size_t sighting) const;
+
+  const Poll& poll() const { return *poll_; }
+
+ private:
+  struct Entry {
+    double height = 0;
+    std::size_t vote = 0;
+    bool operator<(const Entry& other) const {  // the highest on top, of equals the first
+      return height != other.height ? height < other.height : vote > other.vote;
+    }
+  };
+
+  double height(std::size_t vote) const;
+  void rank_votes();
+  std::optional<Elected> elected_around(std::size_t vote);
+  std::optional<Way> way_from(std::size_t vote);
+  std::vector<const Reading*> pool(const ObjectType& type, const Pose& T_world_object) const;
+  Elected ways(Way first);
+  bool worth_trying(std::size_t vote, const std::vector<std::size_t>& sightings,
+                    const Elected& ways) const;
+  void weigh(Elected& ways) const;
+  void drop(std::size_t vote, const std::string& reason);
+  void drop_votes_for(const Way& way, const std::string& reason);
+  bool taken(const Way& way) const;
+  void accept(const Elected& elected);
+
+  const Ballot* ballot_;
+  ReconstructOptions options_;
+  Bounds bounds_;
+  std::unique_ptr<Witnesses> witnesses_;
+  std::unique_ptr<Poll> poll_;
+  std::vector<double> said_;  // of each vote: labels for it, less what is against it
+  std::vector<Entry> queue_;  // a heap
+  std::vector<bool> free_;    // of each sighting: no object has it
+  std::vector<std::string> reasons_;
+  std::map<const ObjectType*, std::vector<const Reading*>> readings_of_;  // never walked
+  std::vector<std::pair<const ObjectType*, Pose>> objects_;
+};
+
+}  // namespace vantage::detail
