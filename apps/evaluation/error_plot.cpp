@@ -129,13 +129,19 @@ std::string draw_axes(const PlotPanel& panel, const Frame& frame, const std::str
                    frame.left - 54, kTop + kPanelHeight / 2, escaped(panel.unit));
 }
 
+/// A bar that leaves the axis below points there with a short arrow.
 std::string draw_bar(const PlotPoint& point, double x, const Frame& frame, const char* color) {
   const std::string look = fmt::format("stroke=\"{}\" stroke-width=\"1.4\"", color);
-  const double low = point.mean - point.deviation;
-  const double top = frame.y(point.mean + point.deviation), bottom = frame.y(low);
-  std::string svg = line(x, top, x, bottom, look) + line(x - 4, top, x + 4, top, look);
-  if (low >= frame.axis.low()) svg += line(x - 4, bottom, x + 4, bottom, look);
-  return svg;
+  const double low = point.mean - point.deviation, middle = frame.y(point.mean);
+  const double top = frame.y(point.mean + point.deviation);
+  std::string svg = line(x, top, x, middle, look) + line(x - 4, top, x + 4, top, look);
+  if (low >= frame.axis.low()) {
+    const double bottom = frame.y(low);
+    return svg + line(x, middle, x, bottom, look) + line(x - 4, bottom, x + 4, bottom, look);
+  }
+  const double tip = std::min(middle + 22, frame.bottom());
+  return svg + line(x, middle, x, tip, look) + line(x - 3.5, tip - 6, x, tip, look) +
+         line(x + 3.5, tip - 6, x, tip, look);
 }
 
 /// Series stand a little beside each other, so that no bar hides another one.
@@ -202,7 +208,7 @@ std::string error_plot_svg(const std::string& title, const std::string& x_label,
   }
   svg += text(kLeft - 54, height - 12, "note",
               std::string("Means; bars: one standard deviation of the sample each way") +
-                  (logarithmic ? ", down to the axis where they leave the logarithmic scale" : ""));
+                  (logarithmic ? "; an arrow where it reaches below the scale" : ""));
   return svg + "</svg>\n";
 }
 

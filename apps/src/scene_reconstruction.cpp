@@ -24,7 +24,8 @@ void check_knowledge(const Workcell& workcell) {
                         "could be recognised");
 }
 
-/// Without any camera there is no reconstruction, only reasons.
+}  // namespace
+
 void check_cameras(const BopScene& scene, const ObservedScene& observed) {
   std::vector<std::string> reasons;
   for (std::size_t i = 0; i < scene.images.size(); ++i) {
@@ -36,8 +37,6 @@ void check_cameras(const BopScene& scene, const ObservedScene& observed) {
                   fmt::format("no camera could be located by the workcell's board: {}",
                               fmt::join(reasons, "; ")));
 }
-
-}  // namespace
 
 ReconstructionMethod reconstruction_method_of(const std::string& name) {
   const auto found = std::find(kReconstructionMethods.begin(), kReconstructionMethods.end(), name);

@@ -36,6 +36,9 @@ Reconstruction reconstruct(ReconstructionMethod method, std::span<const CameraVi
                            const KnowledgeBase& knowledge, const ReconstructOptions& options = {},
                            const StopToken& stop = {});
 
+/// @throws Error bad_input if no camera could be located, with each one's reason.
+void check_cameras(const BopScene& scene, const ObservedScene& observed);
+
 /// Detects, locates and reconstructs. Runs in the caller's task arena.
 /// @throws Error bad_input as `observe` does; if no camera could be located, with each one's
 /// reason; and for a workcell whose knowledge base has no type with features.

@@ -68,12 +68,20 @@ TEST_CASE("OpenCV finds the markers of every dictionary by their cells") {
   }
 }
 
+TEST_CASE("dictionaries have as many markers as their names say") {
+  CHECK(marker_count("4X4_50", "test") == 50);
+  CHECK(marker_count("7X7_1000", "test") == 1000);
+  CHECK(marker_count("ARUCO_ORIGINAL", "test") == 1024);
+  CHECK_NOTHROW(marker_cells("APRILTAG_36h11", marker_count("APRILTAG_36h11", "test") - 1, "test"));
+}
+
 TEST_CASE("unknown dictionaries and ids are refused with those that there are") {
   expect_refused([] { marker_cells("DICT_4X4_50", 0, "cell.yaml:7: dictionary"); },
                  "cell.yaml:7: dictionary", {"'DICT_4X4_50'", "4X4_50, 4X4_100", "APRILTAG_36h11"});
   expect_refused([] { marker_cells("6X6_250", 250, "cell.yaml:8: id"); }, "cell.yaml:8: id",
                  {"6X6_250 has no id 250", "0 to 249"});
   expect_refused([] { marker_cells("6X6_250", -1, "id"); }, "id", {"-1", "0 to 249"});
+  expect_refused([] { marker_count("6X6", "here"); }, "here", {"'6X6'", "6X6_250"});
 }
 
 TEST_CASE("a marker's corners go around as OpenCV's do") {

@@ -38,6 +38,11 @@ VANTAGE_API std::vector<std::string> marker_dictionaries();
 /// marker 7 from 4X4_250's. Other names stand for themselves.
 VANTAGE_API std::string marker_family(std::string_view dictionary);
 
+/// How many markers a dictionary has; their ids count from 0.
+/// @throws Error bad_input, `where` as the place, for a dictionary that OpenCV does not have,
+/// naming those that it has.
+VANTAGE_API int marker_count(const std::string& dictionary, const std::string& where);
+
 /// @throws Error bad_input, `where` as the place, for a dictionary that OpenCV does not have
 /// (naming those that it has) and an id outside of it.
 VANTAGE_API MarkerCells marker_cells(const std::string& dictionary, int id,
