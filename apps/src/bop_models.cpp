@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "bop_ply.hpp"
 #include "object_looks.hpp"
@@ -73,18 +74,38 @@ Json info_json(const BopModel& model) {
   return info;
 }
 
+/// 1, 2, …, without the ids that types have from elsewhere.
+class ModelIds {
+ public:
+  explicit ModelIds(const std::vector<TypePtr>& types) {
+    for (const TypePtr& type : types) {
+      if (type->bop_id) taken_.insert(*type->bop_id);
+    }
+  }
+  int next() {
+    do ++last_;
+    while (taken_.contains(last_));
+    return last_;
+  }
+
+ private:
+  std::set<int> taken_;
+  int last_ = 0;
+};
+
 }  // namespace
 
 std::vector<BopModel> bop_models(const Workcell& workcell) {
   std::vector<BopModel> models;
   ObjectLooks looks;
-  const auto next_id = [&] { return int(models.size()) + 1; };
+  ModelIds ids(workcell.knowledge->types());
   for (const TypePtr& type : workcell.knowledge->types()) {
-    models.push_back({next_id(), type->name, looks.of(type), type->symmetries, type, type->mesh});
+    models.push_back({type->bop_id ? *type->bop_id : ids.next(), type->name, looks.of(type),
+                      type->symmetries, type, type->mesh});
   }
   for (const PlacedObject& object : workcell.known_objects) {
     if (object.type != nullptr) continue;
-    models.push_back({next_id(), object.name, looks.of(object), {}, nullptr, object.mesh});
+    models.push_back({ids.next(), object.name, looks.of(object), {}, nullptr, object.mesh});
   }
   return models;
 }

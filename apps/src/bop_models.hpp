@@ -21,8 +21,9 @@ struct BopModel {
   std::shared_ptr<const TriangleMesh> mesh = {};  ///< that of the type or the object
 };
 
-/// The types of the knowledge base in their order, then each shape of a known object without a
-/// type.
+/// The types of the knowledge base in their order, then each known object without a type. A type
+/// that comes from a BOP model keeps its id; the others get the lowest that are free, in order.
+/// @throws Error bad_input as `ObjectLooks`.
 std::vector<BopModel> bop_models(const Workcell& workcell);
 
 /// The model of a known object of the workcell from which `models` were made.

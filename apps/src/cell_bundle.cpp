@@ -7,8 +7,8 @@
 #include <set>
 #include <string>
 
-#include "vantage/raycore/file.hpp"
 #include "documents/yaml_document.hpp"
+#include "vantage/raycore/file.hpp"
 
 namespace vantage {
 namespace {
@@ -32,19 +32,25 @@ class Copies {
     const auto [entry, is_new] = names_.try_emplace(fs::weakly_canonical(file).string());
     if (is_new) {
       entry->second = free_name(file.filename().string());
-      const auto bytes = read_file(file);
-      write(entry->second, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+      copy_bytes(file, entry->second);
     }
     return entry->second;
   }
 
-  /// The same for a knowledge base, with the meshes that it names beside it.
-  std::string copy_knowledge(const fs::path& file) {
-    json root = read_yaml(file).root;
-    for (json& type : root["object_types"]) copy_mesh_of(type, file.parent_path(), "");
-    const std::string name = free_name(file.filename().string());
-    write(name, yaml_text(root));
-    return name;
+  /// The same for a knowledge base: a file with the meshes that it names beside it, or a folder of
+  /// BOP models.
+  std::string copy_knowledge(const fs::path& path) {
+    const fs::path from = fs::weakly_canonical(path);
+    const auto [entry, is_new] = names_.try_emplace(from.string());
+    if (is_new) {
+      entry->second = free_name(from.filename().string());
+      if (fs::is_directory(from)) {
+        copy_models(from, entry->second);
+      } else {
+        copy_types(path, entry->second);
+      }
+    }
+    return entry->second;
   }
 
   /// Copies the mesh file of a type or an object, if it has one, and makes it name the copy.
@@ -59,6 +65,26 @@ class Copies {
   }
 
  private:
+  void copy_types(const fs::path& file, const std::string& name) {
+    json root = read_yaml(file).root;
+    for (json& type : root["object_types"]) copy_mesh_of(type, file.parent_path(), "");
+    write(name, yaml_text(root));
+  }
+
+  void copy_models(const fs::path& folder, const std::string& name) {
+    fs::create_directories(folder_ / name);
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+      const fs::path file = entry.path().filename();
+      if (file != "models_info.json" && file.extension() != ".ply") continue;
+      copy_bytes(entry.path(), (name / file).string());
+    }
+  }
+
+  void copy_bytes(const fs::path& file, const std::string& name) {
+    const auto bytes = read_file(file);
+    write(name, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+  }
+
   /// Files of one name in different folders get numbers.
   std::string free_name(const std::string& wanted) {
     std::string name = wanted;

@@ -117,9 +117,9 @@ std::shared_ptr<const FileKnowledgeBase> read_knowledge(const Value& value,
                                                         const fs::path& folder) {
   std::vector<fs::path> files;
   if (value.is_string()) {
-    named_file(value, folder, files);
+    named_file_or_folder(value, folder, files);
   } else {
-    for (const Value& name : value.elements()) named_file(name, folder, files);
+    for (const Value& name : value.elements()) named_file_or_folder(name, folder, files);
   }
   return std::make_shared<const FileKnowledgeBase>(files);
 }

@@ -29,6 +29,13 @@ class Value {
     return all;
   }
 
+  /// The keys of a mapping, in alphabetical order, with their values.
+  std::vector<std::pair<std::string, Value>> members() const {
+    std::vector<std::pair<std::string, Value>> all;
+    for (const auto& [key, value] : json_->items()) all.push_back({key, (*this)[key.c_str()]});
+    return all;
+  }
+
   template <class T>
   T as() const {
     return json_->get<T>();

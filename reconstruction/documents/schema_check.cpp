@@ -43,7 +43,7 @@ class Walk {
 
   void check(const json& value, const json& any_schema, const std::string& pointer) const {
     static const json kAnything = json::object();  // what the schema `true` stands for
-    const json& resolved = resolve(root_, any_schema);
+    const json& resolved = resolve(root_, any_schema, value);
     const json& schema = resolved.is_object() ? resolved : kAnything;
     if (schema.contains("type") && !is_of_any_type(value, schema["type"])) {
       fail(pointer, fmt::format("found {}; expected {}", shown(value), in_words(root_, schema)));
@@ -92,7 +92,7 @@ class Walk {
 
   [[noreturn]] void fail_missing(const std::string& key, const json& properties,
                                  const std::string& pointer) const {
-    const json& schema = resolve(root_, properties.at(key));
+    const json& schema = resolve(root_, properties.at(key), json());
     std::string message = fmt::format("missing; expected {}", in_words(root_, schema));
     if (properties.at(key).contains("description")) {
       message += ": " + properties.at(key)["description"].get<std::string>();
@@ -133,7 +133,7 @@ void check_schema(const Document& document, const json& schema) {
   const json::json_pointer at = to_pointer(inner->context);
   throw bad_input(document.place(at.to_string()),
                   fmt::format("found {}; expected {}", shown(document.root.at(at)),
-                              in_words(schema, schema_at(schema, at))));
+                              in_words(schema, schema_at(schema, document.root, at))));
 }
 
 }  // namespace vantage

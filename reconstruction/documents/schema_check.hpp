@@ -10,8 +10,8 @@ namespace vantage {
 ///
 /// Unknown keys, missing keys and wrong types are looked for first, from the top down, where the
 /// message can name the nearest known key; valijson checks all the rest. Of the schema's ways to
-/// describe a key, `properties`, `items`, `additionalProperties` and `$ref` within the schema are
-/// followed.
+/// describe a key, `properties`, `items`, `additionalProperties`, `$ref` within the schema and `if`
+/// with `then` and `else` are followed.
 /// @throws Error bad_input with file, line and key; the value found and what is expected.
 void check_schema(const Document& document, const nlohmann::json& schema);
 

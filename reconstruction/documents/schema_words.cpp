@@ -12,6 +12,25 @@ namespace {
 
 using nlohmann::json;
 
+const json& follow(const json& root, const json& schema) {
+  const json* at = &schema;
+  while (at->is_object() && at->contains("$ref")) {
+    at = &root.at(json::json_pointer((*at)["$ref"].get<std::string>().substr(1)));
+  }
+  return *at;
+}
+
+bool holds(const json& condition, const json& value) {
+  if (!value.is_object()) return true;
+  for (const json& key : condition.value("required", json::array())) {
+    if (!value.contains(key.get<std::string>())) return false;
+  }
+  for (const auto& [key, schema] : condition.value("properties", json::object()).items()) {
+    if (value.contains(key) && value[key] != schema.at("const")) return false;
+  }
+  return true;
+}
+
 std::string type_in_words(const std::string& type, bool plural) {
   if (type == "null") return "null";
   const std::string noun = type == "integer"   ? "whole number"
@@ -49,7 +68,8 @@ std::string array_in_words(const json& root, const json& schema) {
                       : least > 0                ? fmt::format("{} or more ", least)
                                                  : "";
   if (!schema.contains("items")) return fmt::format("an array of {}elements", count);
-  const json& items = resolve(root, schema["items"]);
+  const json& any = follow(root, schema["items"]);
+  const json& items = any.contains("if") ? follow(root, any["then"]) : any;
   return fmt::format("an array of {}{}{}", count,
                      types_in_words(items.value("type", json("value")), true),
                      limits_in_words(items));
@@ -82,23 +102,24 @@ std::size_t edit_distance(const std::string& a, const std::string& b) {
 
 }  // namespace
 
-const json& resolve(const json& root, const json& schema) {
-  const json* at = &schema;
-  while (at->is_object() && at->contains("$ref")) {
-    at = &root.at(json::json_pointer((*at)["$ref"].get<std::string>().substr(1)));
+const json& resolve(const json& root, const json& schema, const json& value) {
+  const json* at = &follow(root, schema);
+  while (at->is_object() && at->contains("if")) {
+    at = &follow(root, at->at(holds((*at)["if"], value) ? "then" : "else"));
   }
   return *at;
 }
 
-const json& schema_at(const json& root, const json::json_pointer& at) {
-  if (at.empty()) return resolve(root, root);
-  const json::json_pointer above = at.parent_pointer();
-  const json& parent = schema_at(root, above);
+const json& schema_at(const json& root, const json& document, const json::json_pointer& at) {
+  if (at.empty()) return resolve(root, root, document);
+  const json& parent = schema_at(root, document, at.parent_pointer());
+  const json& value = document.at(at);
   if (parent.contains("properties") && parent["properties"].contains(at.back())) {
-    return resolve(root, parent["properties"][at.back()]);
+    return resolve(root, parent["properties"][at.back()], value);
   }
-  if (parent.contains("items")) return resolve(root, parent["items"]);
-  if (parent.contains("additionalProperties")) return resolve(root, parent["additionalProperties"]);
+  for (const char* others : {"items", "additionalProperties"}) {
+    if (parent.contains(others)) return resolve(root, parent[others], value);
+  }
   return parent;
 }
 

@@ -5,11 +5,14 @@
 
 namespace vantage {
 
-/// Follows `$ref: "#/definitions/…"` within the schema `root`.
-const nlohmann::json& resolve(const nlohmann::json& root, const nlohmann::json& schema);
+/// Follows `$ref: "#/definitions/…"` within the schema `root`, and `if` to the `then` or the `else`
+/// that is for `value`. Of conditions, `required` and a `const` of `properties` are known.
+const nlohmann::json& resolve(const nlohmann::json& root, const nlohmann::json& schema,
+                              const nlohmann::json& value);
 
-/// The part of a schema that describes the value at a JSON pointer.
-const nlohmann::json& schema_at(const nlohmann::json& root, const nlohmann::json::json_pointer& at);
+/// The part of a schema that describes the value at a JSON pointer of a document.
+const nlohmann::json& schema_at(const nlohmann::json& root, const nlohmann::json& document,
+                                const nlohmann::json::json_pointer& at);
 
 /// What a schema expects, in words: "an array of 3 numbers > 0".
 std::string in_words(const nlohmann::json& root, const nlohmann::json& schema);

@@ -2,9 +2,9 @@
 
 #include <array>
 
-#include "vantage/raycore/solids.hpp"
 #include "documents/value_readers.hpp"
 #include "vantage/raycore/mesh_io.hpp"
+#include "vantage/raycore/solids.hpp"
 
 namespace vantage {
 namespace {

@@ -44,16 +44,30 @@ Eigen::Vector3f read_color(const Value& value) {
   return value.vector().cast<float>();
 }
 
-fs::path named_file(const Value& value, const fs::path& folder, std::vector<fs::path>& files) {
+namespace {
+
+fs::path named(const Value& value, const fs::path& folder, bool may_be_folder,
+               std::vector<fs::path>& files) {
   const fs::path file = folder / value.as<std::string>();
-  if (!fs::is_regular_file(file)) {
+  if (!fs::is_regular_file(file) && !(may_be_folder && fs::is_directory(file))) {
     throw value.error(
-        fmt::format("there is no file {}; the path is relative to the folder of the "
+        fmt::format("there is no file{} {}; the path is relative to the folder of the "
                     "file that names it",
-                    file.string()));
+                    may_be_folder ? " or folder" : "", file.string()));
   }
   if (std::find(files.begin(), files.end(), file) == files.end()) files.push_back(file);
   return file;
+}
+
+}  // namespace
+
+fs::path named_file(const Value& value, const fs::path& folder, std::vector<fs::path>& files) {
+  return named(value, folder, false, files);
+}
+
+fs::path named_file_or_folder(const Value& value, const fs::path& folder,
+                              std::vector<fs::path>& files) {
+  return named(value, folder, true, files);
 }
 
 }  // namespace vantage

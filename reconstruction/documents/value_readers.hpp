@@ -28,4 +28,8 @@ Eigen::Vector3f read_color(const Value& value);
 std::filesystem::path named_file(const Value& value, const std::filesystem::path& folder,
                                  std::vector<std::filesystem::path>& files);
 
+/// The same for what may be a folder, too.
+std::filesystem::path named_file_or_folder(const Value& value, const std::filesystem::path& folder,
+                                           std::vector<std::filesystem::path>& files);
+
 }  // namespace vantage

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -21,6 +22,32 @@ inline std::string shown(const nlohmann::json& value) {
     text = text.substr(0, longest) + "…";
   }
   return text;
+}
+
+/// @throws Error bad_input with `where` as the place for anything but an array of `kCount` numbers.
+template <std::size_t kCount>
+std::array<double, kCount> numbers_of(const nlohmann::json& found, const std::string& where) {
+  const bool fits = found.is_array() && found.size() == kCount &&
+                    std::all_of(found.begin(), found.end(),
+                                [](const nlohmann::json& number) { return number.is_number(); });
+  if (!fits) {
+    throw bad_input(where,
+                    fmt::format("found {}{}; expected {} numbers",
+                                found.is_array() ? fmt::format("{} values, ", found.size()) : "",
+                                shown(found), kCount));
+  }
+  return found.get<std::array<double, kCount>>();
+}
+
+/// The id that a key is, of an image or a model as `what` says.
+/// @throws Error bad_input with `where` as the place if it is none.
+inline int id_of(const std::string& key, const char* what, const std::string& where) {
+  int id = 0;
+  const auto [end, error] = std::from_chars(key.data(), key.data() + key.size(), id);
+  if (error != std::errc{} || end != key.data() + key.size() || id < 0) {
+    throw bad_input(where, fmt::format("no {} id; expected a whole number such as \"20\"", what));
+  }
+  return id;
 }
 
 /// One image's part of scene_camera.json; knows its place for the messages.
@@ -41,17 +68,7 @@ class Entry {
 
   template <std::size_t kCount>
   std::array<double, kCount> numbers(const char* key) const {
-    const nlohmann::json& found = required(key);
-    const bool fits = found.is_array() && found.size() == kCount &&
-                      std::all_of(found.begin(), found.end(),
-                                  [](const nlohmann::json& number) { return number.is_number(); });
-    if (!fits) {
-      throw bad_input(where(key),
-                      fmt::format("found {}{}; expected {} numbers",
-                                  found.is_array() ? fmt::format("{} values, ", found.size()) : "",
-                                  shown(found), kCount));
-    }
-    return found.get<std::array<double, kCount>>();
+    return numbers_of<kCount>(required(key), where(key));
   }
 
   double positive(const char* key) const {

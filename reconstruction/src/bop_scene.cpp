@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <map>
 #include <optional>
@@ -27,16 +26,6 @@ using detail::ImageSize;
 using detail::shown;
 using nlohmann::json;
 
-int parse_id(const fs::path& file, const std::string& key) {
-  int id = 0;
-  const auto [end, error] = std::from_chars(key.data(), key.data() + key.size(), id);
-  if (error != std::errc{} || end != key.data() + key.size() || id < 0) {
-    throw bad_input(fmt::format("{}: {}", file.string(), json(key).dump()),
-                    "no image id; expected a whole number such as \"20\"");
-  }
-  return id;
-}
-
 using Entries = std::map<int, Entry>;
 
 Entries entries_by_id(const fs::path& file, const json& root) {
@@ -47,7 +36,8 @@ Entries entries_by_id(const fs::path& file, const json& root) {
   }
   Entries entries;
   for (const auto& [key, value] : root.items()) {
-    const int id = parse_id(file, key);
+    const int id =
+        detail::id_of(key, "image", fmt::format("{}: {}", file.string(), json(key).dump()));
     if (!entries.try_emplace(id, file, key, value).second) {
       throw bad_input(fmt::format("{}: \"{}\"", file.string(), key),
                       fmt::format("image {} is there twice; remove one of them", id));

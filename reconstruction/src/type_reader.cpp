@@ -17,7 +17,9 @@ Symmetries read_symmetries(const Value& value) {
   if (value.has("discrete")) {
     for (const Value& turn : value["discrete"].elements()) {
       symmetries.discrete.push_back(
-          Pose::from_quaternion(read_quaternion(turn), Eigen::Vector3d::Zero(), turn.place()));
+          turn.has("rotation") ? read_pose(turn)
+                               : Pose::from_quaternion(read_quaternion(turn),
+                                                       Eigen::Vector3d::Zero(), turn.place()));
     }
   }
   if (value.has("continuous")) {
@@ -30,6 +32,26 @@ Symmetries read_symmetries(const Value& value) {
     }
   }
   return symmetries;
+}
+
+std::vector<Eigen::Vector3d> read_points(const Value& value) {
+  std::vector<Eigen::Vector3d> points;
+  for (const Value& point : value.elements()) points.push_back(point.vector());
+  return points;
+}
+
+/// What is no marker: its keys say which it is.
+ObjectFeature read_feature(const Value& value) {
+  ObjectFeature feature{{value["type"].as<std::string>(), value["value"].as<std::string>()},
+                        FeatureLabel{}};
+  if (value.has("points_m")) {
+    feature.geometry = FeaturePoints{read_points(value["points_m"])};
+  } else if (value.has("pose")) {
+    feature.geometry = FeaturePose{read_pose(value["pose"])};
+  } else if (value.has("near_m")) {
+    feature.geometry = FeatureLabel{read_points(value["near_m"]), value["radius_m"].as<double>()};
+  }
+  return feature;
 }
 
 }  // namespace
@@ -50,6 +72,10 @@ std::vector<ObjectFeature> TypeReader::read_features(const Value& type) {
   if (type["shape"].has("box")) box_size_m = type["shape"]["box"]["size_m"].vector();
   std::vector<ObjectFeature> features;
   for (const Value& value : type["features"].elements()) {
+    if (value["type"].as<std::string>() != "aruco") {
+      features.push_back(read_feature(value));
+      continue;
+    }
     const Marker marker = read_marker(value, box_size_m);
     take_dictionary(marker, value["dictionary"]);
     features.push_back(marker_feature(marker));

@@ -1,14 +1,15 @@
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "bop_models.hpp"
 #include "bop_ply.hpp"
 #include "simulator/marker_print.hpp"
-#include "vantage/raycore/solids.hpp"
 #include "support/test_data.hpp"
 #include "vantage/raycore/mesh_io.hpp"
+#include "vantage/raycore/solids.hpp"
 
 namespace vantage {
 namespace {
@@ -24,14 +25,30 @@ double volume_of(const TriangleMesh& mesh) {
   return six / 6;
 }
 
+/// The larger of both meshes' largest distance from a vertex to the other's nearest.
+double vertex_distance_m(const TriangleMesh& a, const TriangleMesh& b) {
+  const auto farthest = [](const TriangleMesh& from, const TriangleMesh& to) {
+    double most = 0;
+    for (const Eigen::Vector3f& p : from.vertices()) {
+      double least = 1;
+      for (const Eigen::Vector3f& q : to.vertices()) {
+        least = std::min(least, (p.cast<double>() - q.cast<double>()).norm());
+      }
+      most = std::max(most, least);
+    }
+    return most;
+  };
+  return std::max(farthest(a, b), farthest(b, a));
+}
+
 BopModel cube(int id) {
   const Marker marker{"4X4_50", 3, 0.04, Pose::from_translation({0, 0, 0.025})};
   return {id,
           "cube",
           std::make_shared<const TexturedMesh>(with_markers(
               box_solid({0.05, 0.05, 0.05}), {0.8f, 0.1f, 0.1f}, {&marker, 1}, "cube")),
-          {{Pose::from_rotation(Eigen::AngleAxisd(M_PI, Eigen::Vector3d::UnitZ()).toRotationMatrix(),
-                               {0.01, 0, 0})},
+          {{Pose::from_rotation(
+               Eigen::AngleAxisd(M_PI, Eigen::Vector3d::UnitZ()).toRotationMatrix(), {0.01, 0, 0})},
            {}}};
 }
 
@@ -74,6 +91,59 @@ TEST_CASE("models are written in millimetres, with what models_info.json has to 
   CHECK(round["axis"] == nlohmann::json({0.0, 0.0, 1.0}));
   CHECK(round["offset"] == nlohmann::json({0.0, 0.0, 1.0}));
   CHECK(info["2"]["diameter"].get<double>() == doctest::Approx(100).epsilon(1e-6));
+}
+
+TEST_CASE("what was written comes back as a knowledge base") {
+  const test::TemporaryFolder folder;
+  const std::vector<BopModel> written{cube(1), tin(12)};
+  write_bop_models(folder.path(), written);
+  const FileKnowledgeBase base({folder.path()});
+  REQUIRE(base.types().size() == 2);
+  for (std::size_t i = 0; i < 2; ++i) {
+    const ObjectType& type = *base.types()[i];
+    const BopModel& model = written[i];
+    CAPTURE(type.name);
+    CHECK(type.bop_id == model.id);
+    CHECK(vertex_distance_m(*type.mesh, model.shape->mesh) < 1e-9);
+    CHECK(volume_of(*type.mesh) ==
+          doctest::Approx(volume_of(model.shape->mesh)).scale(0).epsilon(1e-6));
+    REQUIRE(type.symmetries.discrete.size() == model.symmetries.discrete.size());
+    for (std::size_t s = 0; s < model.symmetries.discrete.size(); ++s) {
+      const Pose &is = type.symmetries.discrete[s], &was = model.symmetries.discrete[s];
+      CHECK((is.rotation() - was.rotation()).norm() < 1e-12);
+      CHECK((is.translation() - was.translation()).norm() < 1e-12);
+    }
+    REQUIRE(type.symmetries.continuous.size() == model.symmetries.continuous.size());
+    for (std::size_t s = 0; s < model.symmetries.continuous.size(); ++s) {
+      const ContinuousSymmetry &is = type.symmetries.continuous[s],
+                               &was = model.symmetries.continuous[s];
+      CHECK((is.axis - was.axis).norm() < 1e-12);
+      CHECK((is.offset_m - was.offset_m).norm() < 1e-12);
+    }
+  }
+}
+
+TEST_CASE("types that come from BOP models keep their ids, the others get those that are free") {
+  const auto mesh = std::make_shared<const TriangleMesh>(box_solid({1, 1, 1}));
+  const auto own = std::make_shared<const TriangleMesh>(box_solid({1, 1, 2}));
+  const auto typed = [&](const char* name, std::optional<int> id) {
+    return ObjectType{.name = name, .mesh = mesh, .bop_id = id};
+  };
+  Workcell cell{.work_area = Box({0, 0, 0}, {1, 1, 1})};
+  cell.knowledge = std::make_shared<const MemoryKnowledgeBase>(
+      std::vector<ObjectType>{typed("a", {}), typed("b", 2), typed("c", {}), typed("d", 7)});
+  const TypePtr c = cell.knowledge->find("c");
+  cell.known_objects = {{"first", mesh, {}, c}, {"own", own}};
+  const std::vector<BopModel> models = bop_models(cell);
+  const std::vector<std::pair<std::string, int>> expected{
+      {"a", 1}, {"b", 2}, {"c", 3}, {"d", 7}, {"own", 4}};
+  REQUIRE(models.size() == expected.size());
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    CHECK(models[i].name == expected[i].first);
+    CHECK(models[i].id == expected[i].second);
+  }
+  CHECK(model_of(models, cell.known_objects[0]).name == "c");  // all have one mesh
+  CHECK(model_of(models, cell.known_objects[1]).name == "own");
 }
 
 TEST_CASE("a textured model's vertices lead to the colours that it has") {

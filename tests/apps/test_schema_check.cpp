@@ -3,8 +3,8 @@
 #include <doctest/doctest.h>
 
 #include "documents/schemas.hpp"
-#include "support/expect_error.hpp"
 #include "documents/yaml_document.hpp"
+#include "support/expect_error.hpp"
 
 namespace vantage::test {
 namespace {
@@ -24,11 +24,20 @@ const json kSchema = json::parse(R"({
     "on": {"type": "boolean"},
     "list": {"type": "array", "minItems": 1, "maxItems": 3, "items": {"$ref": "#/definitions/shape"}},
     "free": {"type": "object"},
-    "limits": {"type": "object", "additionalProperties": {"type": "number", "minimum": 0}}
+    "limits": {"type": "object", "additionalProperties": {"type": "number", "minimum": 0}},
+    "ways": {"type": "array", "minItems": 1, "items": {
+      "if": {"properties": {"kind": {"const": "ship"}}, "required": ["kind"]},
+      "then": {"$ref": "#/definitions/ship"},
+      "else": {"if": {"required": ["wheels"]}, "then": {"$ref": "#/definitions/car"},
+               "else": {"type": "object", "additionalProperties": false}}}}
   },
   "definitions": {
     "area": {"type": "object", "additionalProperties": false, "required": ["min_m", "max_m"],
       "properties": {"min_m": {"$ref": "#/definitions/vector"}, "max_m": {"$ref": "#/definitions/vector"}}},
+    "ship": {"type": "object", "additionalProperties": false, "required": ["kind", "draught_m"],
+      "properties": {"kind": {"enum": ["ship"]}, "draught_m": {"type": "number", "minimum": 0}}},
+    "car": {"type": "object", "additionalProperties": false,
+      "properties": {"kind": {"type": "string"}, "wheels": {"type": "integer", "minimum": 3}}},
     "vector": {"type": "array", "minItems": 3, "maxItems": 3, "items": {"type": "number"}},
     "shape": {"type": "object", "additionalProperties": false,
       "oneOf": [{"required": ["box"]}, {"required": ["mesh"]}],
@@ -115,6 +124,21 @@ TEST_CASE("one of two keys has to be there, and not both") {
                       {"found {}", "exactly one of the keys \"box\", \"mesh\""});
   expect_line_refused("list: [{box: 1, mesh: a}]", "cell.yaml:2: list[0]",
                       {"exactly one of the keys"});
+}
+
+TEST_CASE("what a value says of itself decides which keys it may have") {
+  CHECK_NOTHROW(check_yaml(std::string(kArea) +
+                           "ways: [{kind: ship, draught_m: 2}, {kind: van, wheels: 4}, {}]\n"));
+  expect_line_refused("ways: [{kind: ship}]", "cell.yaml:2: ways[0].draught_m", {"missing"});
+  expect_line_refused("ways: [{kind: ship, wheels: 4}]", "ways[0].wheels",
+                      {"unknown key", "draught_m, kind"});
+  expect_line_refused("ways: [{kind: ship, draught_m: -1}]", "ways[0].draught_m",
+                      {"found -1", "a number >= 0"});
+  expect_line_refused("ways: [{}, {wheels: 2}]", "ways[1].wheels",
+                      {"found 2", "a whole number >= 3"});
+  expect_line_refused("ways: [{wheels: 4, weels: 4}]", "ways[0].weels", {"\"wheels\""});
+  expect_line_refused("ways: [7]", "ways[0]", {"found 7", "an object"});
+  expect_line_refused("ways: []", "ways", {"an array of 1 or more objects"});
 }
 
 TEST_CASE("the plan's schema takes what a plan has and nothing else") {

@@ -57,9 +57,10 @@ class VANTAGE_API MemoryKnowledgeBase final : public KnowledgeBase {
  public:
   MemoryKnowledgeBase() = default;  ///< without types
 
-  /// @throws Error bad_input, the type's `place` or name as the place, for a name that is used
-  /// twice, a type without mesh, an ancestor that is its own, features without points, points and
-  /// poses that are not finite, and two features of a type that are the same in everything.
+  /// @throws Error bad_input, the type's `place` or name as the place, for a name that is empty or
+  /// used twice, a type without mesh, an ancestor that is its own, features without a type, a value
+  /// or points, sizes and points that are none, axes that are not of length 1, and two features of
+  /// a type that are the same in everything.
   explicit MemoryKnowledgeBase(std::vector<ObjectType> types, Hierarchy hierarchy = {});
 
   const std::vector<TypePtr>& types() const override { return types_; }
@@ -81,8 +82,8 @@ class VANTAGE_API MemoryKnowledgeBase final : public KnowledgeBase {
 class VANTAGE_API FileKnowledgeBase final : public KnowledgeBase {
  public:
   /// @throws Error bad_input with file, line and key for anything that is not as the schema has it,
-  /// sizes and markers as solids.hpp and marker.hpp say, and what MemoryKnowledgeBase refuses; with
-  /// the mesh file for one that is damaged.
+  /// sizes and markers as solids.hpp and marker.hpp say, one marker under two dictionaries' names,
+  /// and what MemoryKnowledgeBase refuses; with the mesh file for one that is damaged.
   explicit FileKnowledgeBase(const std::vector<std::filesystem::path>& files);
 
   const std::vector<TypePtr>& types() const override { return memory_.types(); }

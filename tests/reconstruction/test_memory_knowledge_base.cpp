@@ -1,0 +1,224 @@
+#include <doctest/doctest.h>
+
+#include <limits>
+
+#include "support/expect_error.hpp"
+#include "vantage/raycore/solids.hpp"
+#include "vantage/reconstruction/knowledge_base.hpp"
+
+namespace vantage::test {
+namespace {
+
+const auto kMesh = std::make_shared<const TriangleMesh>(box_solid({0.05, 0.05, 0.05}));
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+ObjectType type_of(const std::string& name, std::vector<std::string> is_a = {}) {
+  return {.name = name, .is_a = std::move(is_a), .mesh = kMesh};
+}
+
+ObjectFeature marker(int id, const Eigen::Vector3d& at_m = {0, 0, 0.025}) {
+  return marker_feature({"4X4_50", id, 0.03, Pose::from_translation(at_m)});
+}
+
+void expect_feature_refused(std::vector<ObjectFeature> features, const std::string& where,
+                            std::initializer_list<std::string_view> parts) {
+  ObjectType type = type_of("tin");
+  type.features = std::move(features);
+  expect_refused([&] { MemoryKnowledgeBase({type}); }, where, parts);
+}
+
+std::vector<std::string> names(const std::vector<TypePtr>& types) {
+  std::vector<std::string> all;
+  for (const TypePtr& type : types) all.push_back(type->name);
+  return all;
+}
+
+/// Another store: it knows a single type and reads no file.
+class OneDuck final : public KnowledgeBase {
+ public:
+  const std::vector<TypePtr>& types() const override { return types_; }
+  TypePtr find(std::string_view name) const override {
+    return name == "duck" ? types_.front() : nullptr;
+  }
+  bool is_a(std::string_view name, std::string_view ancestor) const override {
+    return name == ancestor || (name == "duck" && ancestor == "bird");
+  }
+  const std::vector<TypeFeature>& with_feature(const FeatureKey& key) const override {
+    return key == FeatureKey{"color", "yellow"} ? yellow_ : none_;
+  }
+
+ private:
+  std::vector<TypePtr> types_{std::make_shared<const ObjectType>(type_of("duck"))};
+  std::vector<TypeFeature> yellow_{{types_.front(), 0}}, none_;
+};
+
+}  // namespace
+
+TEST_CASE("a marker's key is its family and id, its points are its corners") {
+  CHECK(marker_key("4X4_50", 17) == FeatureKey{"aruco", "4X4/17"});
+  CHECK(marker_key("4X4_250", 17) == marker_key("4X4_50", 17));
+  CHECK(marker_key("ARUCO_ORIGINAL", 3) == FeatureKey{"aruco", "ARUCO_ORIGINAL/3"});
+  const ObjectFeature feature = marker(7, {1, 2, 3});
+  CHECK(feature.key == marker_key("4X4_50", 7));
+  CHECK((feature.points() ==
+         std::vector<Eigen::Vector3d>{
+             {0.985, 2.015, 3}, {1.015, 2.015, 3}, {1.015, 1.985, 3}, {0.985, 1.985, 3}}));
+  const FeatureKey key{"keypoint", "spout"};
+  CHECK(ObjectFeature{key, FeaturePoints{{{1, 2, 3}}}}.points().at(0) == Eigen::Vector3d(1, 2, 3));
+  CHECK(ObjectFeature{key, FeaturePose{}}.points().empty());
+  CHECK(ObjectFeature{key, FeatureLabel{{{1, 2, 3}}, 0.1}}.points().empty());
+}
+
+TEST_CASE("a type's markers are those of its features, in their order") {
+  ObjectType type = type_of("cube");
+  type.features = {marker(3), {{"color", "red"}, FeatureLabel{}}, marker(1)};
+  const std::vector<Marker> markers = type.markers();
+  REQUIRE(markers.size() == 2);
+  CHECK(markers[0].id == 3);
+  CHECK(markers[1].id == 1);
+}
+
+TEST_CASE("types are found by name and by feature, in the order in which they were given") {
+  ObjectType a = type_of("a"), b = type_of("b");
+  a.features = {marker(1), marker(2, {0, 0, 0.1})};
+  b.features = {{{"color", "red"}, FeatureLabel{}}, marker(2)};
+  const MemoryKnowledgeBase base({b, a});
+  CHECK(names(base.types()) == std::vector<std::string>{"b", "a"});
+  CHECK(base.find("a") == base.types()[1]);
+  CHECK(base.find("c") == nullptr);
+  const auto& shared = base.with_feature(marker_key("4X4_100", 2));  // on both types
+  REQUIRE(shared.size() == 2);
+  CHECK(shared[0].type == base.types()[0]);
+  CHECK(shared[0].index == 1);
+  CHECK(shared[1].type == base.types()[1]);
+  CHECK(shared[1].index == 1);
+  CHECK(base.with_feature({"color", "red"}).size() == 1);
+  CHECK(base.with_feature({"color", "blue"}).empty());
+  CHECK(MemoryKnowledgeBase().types().empty());
+}
+
+TEST_CASE("one marker may be on a type several times") {
+  ObjectType type = type_of("cube");
+  type.features = {marker(1), marker(1, {0, 0, -0.025})};
+  CHECK(MemoryKnowledgeBase({type}).with_feature(marker_key("4X4_50", 1)).size() == 2);
+}
+
+TEST_CASE("what something is goes up through types and through names that are none") {
+  const MemoryKnowledgeBase base({type_of("red_cube", {"cube"}), type_of("mug", {"container"}),
+                                  type_of("big_red_cube", {"red_cube", "container"})},
+                                 {{"cube", {"block", "toy"}}, {"block", {"thing"}}});
+  CHECK(base.is_a("red_cube", "red_cube"));
+  CHECK(base.is_a("red_cube", "cube"));
+  CHECK(base.is_a("big_red_cube", "thing"));
+  CHECK(base.is_a("cube", "toy"));
+  CHECK(base.is_a("nobody", "nobody"));
+  CHECK_FALSE(base.is_a("cube", "red_cube"));
+  CHECK_FALSE(base.is_a("mug", "thing"));
+  CHECK_FALSE(base.is_a("nobody", "thing"));
+  CHECK(names(base.types_that_are("cube")) == std::vector<std::string>{"red_cube", "big_red_cube"});
+  CHECK(names(base.types_that_are("container")) == std::vector<std::string>{"mug", "big_red_cube"});
+  CHECK(names(base.types_that_are("mug")) == std::vector<std::string>{"mug"});
+  CHECK(base.types_that_are("nobody").empty());
+}
+
+TEST_CASE("two ways up to one ancestor are no circle; a long way is none, either") {
+  const MemoryKnowledgeBase diamond({type_of("a", {"b", "c"})}, {{"b", {"d"}}, {"c", {"d"}}});
+  CHECK(diamond.is_a("a", "d"));
+  Hierarchy chain;
+  for (int i = 0; i < 20000; ++i) chain[std::to_string(i)] = {std::to_string(i + 1)};
+  CHECK(MemoryKnowledgeBase({}, chain).is_a("0", "20000"));
+}
+
+TEST_CASE("nothing is its own ancestor") {
+  expect_refused([] { MemoryKnowledgeBase({type_of("a", {"a"})}); }, "a",
+                 {"\"a is a a\"", "its own ancestor"});
+  ObjectType placed = type_of("a", {"b"});
+  placed.place = "types.yaml:2: object_types[0]";
+  const Hierarchy back{{"b", {"x", "c"}}, {"c", {"a"}}, {"0", {"a"}}};
+  expect_refused([&] { MemoryKnowledgeBase({placed}, back); }, "types.yaml:2: object_types[0]",
+                 {"\"a is a b is a c is a a\""});
+  expect_refused(
+      [] {
+        MemoryKnowledgeBase({}, {{"b", {"c"}}, {"c", {"b"}}});
+      },
+      "hierarchy: b", {"\"b is a c is a b\""});
+}
+
+TEST_CASE("types that are none are refused") {
+  expect_refused(
+      [] {
+        MemoryKnowledgeBase({type_of("a"), type_of("a")});
+      },
+      "a", {"\"a\"", "is taken", "differ"});
+  expect_refused([] { MemoryKnowledgeBase({{.name = "a"}}); }, "a", {"no mesh"});
+  ObjectType nameless = type_of("");
+  nameless.place = "here";
+  expect_refused([&] { MemoryKnowledgeBase({nameless}); }, "here", {"without a name"});
+  ObjectType round = type_of("a");
+  round.symmetries.continuous = {{Eigen::Vector3d::UnitZ()}, {{0, 0, 2}}};
+  expect_refused([&] { MemoryKnowledgeBase({round}); }, "a.symmetries.continuous[1]",
+                 {"length 2", "expected 1"});
+  round.symmetries.continuous = {{Eigen::Vector3d::UnitZ(), {0, kNan, 0}}};
+  expect_refused([&] { MemoryKnowledgeBase({round}); }, "a.symmetries.continuous[0]",
+                 {"(0, nan, 0)", "finite"});
+}
+
+TEST_CASE("features that are none are refused") {
+  const FeatureKey key{"keypoint", "spout"};
+  expect_feature_refused({marker(1), {key, FeaturePoints{}}}, "tin.features[1]", {"no points"});
+  expect_feature_refused({{key, FeaturePoints{{{0, 0, 0}, {kNan, 0, 0}}}}}, "tin.features[0]",
+                         {"point 1", "nan"});
+  expect_feature_refused({{key, FeatureLabel{{{0, kNan, 0}}, 0.1}}}, "tin.features[0]",
+                         {"point 0", "nan"});
+  expect_feature_refused({{key, FeatureLabel{{{0, 0, 0}}, -0.1}}}, "tin.features[0]",
+                         {"radius", "-0.1"});
+  expect_feature_refused({{{"keypoint", ""}, FeaturePose{}}}, "tin.features[0]",
+                         {"\"keypoint\", \"\"", "a type and a value"});
+  expect_feature_refused({marker_feature({"4X4_50", 1, 0, {}})}, "tin.features[0]",
+                         {"size is 0 m", "above 0"});
+}
+
+TEST_CASE("two features that are the same in everything are refused, others with one key are not") {
+  const FeatureKey key{"keypoint", "screw"};
+  const Pose there = Pose::from_translation({0, 0, 0.1});
+  const std::vector<std::pair<ObjectFeature, ObjectFeature>> pairs{
+      {marker(1), marker(1, {0, 0, 0.1})},
+      {{key, FeaturePoints{{{0, 0, 0}}}}, {key, FeaturePoints{{{0, 0, 1}}}}},
+      {{key, FeaturePose{}}, {key, FeaturePose{there}}},
+      {{key, FeatureLabel{}}, {key, FeatureLabel{{{0, 0, 0}}, 0.1}}},
+      {{key, FeatureLabel{{{0, 0, 0}}, 0.2}}, {key, FeatureLabel{{{0, 0, 0}}, 0.1}}},
+      {{key, FeaturePose{}}, {key, FeatureLabel{}}}};
+  for (const auto& [one, other] : pairs) {
+    ObjectType type = type_of("a");
+    type.features = {one, other};
+    CHECK_NOTHROW(MemoryKnowledgeBase({type}));
+    expect_feature_refused({one, other, one}, "tin.features[2]", {"features[0] once more"});
+    expect_feature_refused({one, other, other}, "tin.features[2]", {"features[1] once more"});
+  }
+  expect_feature_refused(
+      {marker(1), marker_feature({"4X4_250", 1, 0.03, Pose::from_translation({0, 0, 0.025})})},
+      "tin.features[1]", {"aruco 4X4/1 is features[0] once more"});
+}
+
+TEST_CASE("a type that the knowledge base does not have is refused with the nearest") {
+  const MemoryKnowledgeBase base({type_of("red_cube"), type_of("duck")});
+  CHECK(base.get("duck", "here") == base.types()[1]);
+  expect_refused([&] { (void)base.get("redcube", "--types"); }, "--types",
+                 {"\"redcube\"", "did you mean \"red_cube\"?"});
+  expect_refused([&] { (void)base.get("x", "--types"); }, "--types",
+                 {"its types are red_cube, duck"});
+  expect_refused([] { (void)MemoryKnowledgeBase().get("x", "--types"); }, "--types",
+                 {"no knowledge base", "knowledge_base"});
+}
+
+TEST_CASE("another store can be put behind the interface") {
+  const OneDuck store;
+  const KnowledgeBase& base = store;
+  CHECK(base.get("duck", "here") == base.types()[0]);
+  CHECK(names(base.types_that_are("bird")) == std::vector<std::string>{"duck"});
+  CHECK(base.types_that_are("fish").empty());
+  CHECK(base.with_feature({"color", "yellow"}).size() == 1);
+  expect_refused([&] { (void)base.get("dukc", "here"); }, "here", {"did you mean \"duck\"?"});
+}
+
+}  // namespace vantage::test
