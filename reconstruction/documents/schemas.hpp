@@ -9,5 +9,7 @@ const nlohmann::json& workcell_schema();
 const nlohmann::json& knowledge_schema();
 const nlohmann::json& plan_schema();
 const nlohmann::json& world_schema();
+const nlohmann::json& observation_schema();
+const nlohmann::json& evaluation_schema();
 
 }  // namespace vantage

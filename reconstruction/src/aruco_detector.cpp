@@ -55,12 +55,13 @@ cv::Mat1b grey_of(const ColorImage& image) {
   return grey;
 }
 
-std::optional<Found> refined(const cv::Mat1f& light, const Family& family, int id,
+std::optional<Found> refined(const cv::Mat1f& light, const Lens* lens, const Family& family, int id,
                              const std::vector<cv::Point2f>& corners) {
   const MarkerCells cells = marker_cells(family.name, id, "dictionaries");
   std::array<Eigen::Vector2d, 4> start;
   for (std::size_t i = 0; i < 4; ++i) start[i] = {double(corners[i].x), double(corners[i].y)};
-  const auto fit = detail::refine_corners(light, detail::marker_edges(cells), cells.side, start);
+  const auto fit =
+      detail::refine_corners(light, detail::marker_edges(cells), cells.side, start, lens);
   if (!fit) return std::nullopt;
   SeenPoints points{{fit->pixels.begin(), fit->pixels.end()}, fit->sigma_px};
   Found found{{marker_key(family.name, id), std::move(points)}, {0, 0}, 0, fit->support};
@@ -88,39 +89,50 @@ void leave_one_of_each(std::vector<Found>& all) {
   all = std::move(kept);
 }
 
+std::vector<Family> checked_families(const std::vector<std::string>& names) {
+  const char* where = "dictionaries";
+  if (names.empty()) throw bad_input(where, "there is none; name at least one, e.g. 4X4_50");
+  std::vector<Family> families;
+  std::set<std::string> seen;
+  for (const std::string& name : names) {
+    auto dictionary = detail::aruco_dictionary(name);
+    if (!dictionary) {
+      throw bad_input(where, fmt::format("there is no marker dictionary '{}'; expected one of {}",
+                                         name, fmt::join(marker_dictionaries(), ", ")));
+    }
+    if (!seen.insert(marker_family(name)).second) {
+      throw bad_input(where, fmt::format("{} is the second one of the family {}, whose markers are "
+                                         "the same; name only the larger one",
+                                         name, marker_family(name)));
+    }
+    families.push_back({name, std::move(*dictionary)});
+  }
+  return families;
+}
+
+void check_size(const ColorImage& image, const Lens& lens) {
+  const Intrinsics& k = lens.intrinsics();
+  if (image.width == k.width && image.height == k.height) return;
+  throw bad_input("image", fmt::format("{} x {} pixels; expected the lens' {} x {}", image.width,
+                                       image.height, k.width, k.height));
+}
+
 }  // namespace
 
 struct ArucoDetector::Impl {
   std::vector<Family> families;
+  std::optional<Lens> lens;
 };
 
-ArucoDetector::ArucoDetector(const ArucoOptions& options) {
-  auto impl = std::make_unique<Impl>();
-  if (options.dictionaries.empty()) {
-    throw bad_input("dictionaries", "there is none; name at least one, e.g. 4X4_50");
-  }
-  std::set<std::string> seen;
-  for (const std::string& name : options.dictionaries) {
-    auto dictionary = detail::aruco_dictionary(name);
-    if (!dictionary) {
-      throw bad_input("dictionaries",
-                      fmt::format("there is no marker dictionary '{}'; expected one of {}", name,
-                                  fmt::join(marker_dictionaries(), ", ")));
-    }
-    if (!seen.insert(marker_family(name)).second) {
-      throw bad_input("dictionaries",
-                      fmt::format("{} is of the same family ({}) as one before it, and has the "
-                                  "same markers; name only the larger one",
-                                  name, marker_family(name)));
-    }
-    impl->families.push_back({name, std::move(*dictionary)});
-  }
-  impl_ = std::move(impl);
-}
+ArucoDetector::ArucoDetector(const ArucoOptions& options)
+    : impl_(std::make_unique<const Impl>(
+          Impl{checked_families(options.dictionaries), options.lens})) {}
 
 ArucoDetector::~ArucoDetector() = default;
 
 std::vector<Observation> ArucoDetector::detect(const ColorImage& image) const {
+  const Lens* lens = impl_->lens ? &*impl_->lens : nullptr;
+  if (lens) check_size(image, *lens);
   if (image.width < kSmallestImage || image.height < kSmallestImage) return {};
   const cv::Mat1b grey = grey_of(image);
   const cv::Mat1f light = linear_light(grey);
@@ -130,7 +142,8 @@ std::vector<Observation> ArucoDetector::detect(const ColorImage& image) const {
     std::vector<std::vector<cv::Point2f>> corners;
     detail::detect_in_grey(grey, family.dictionary, ids, corners);
     for (std::size_t i = 0; i < ids.size(); ++i) {
-      if (auto found = refined(light, family, ids[i], corners[i])) all.push_back(std::move(*found));
+      if (auto found = refined(light, lens, family, ids[i], corners[i]))
+        all.push_back(std::move(*found));
     }
   }
   const auto order = [](const Found& f) {

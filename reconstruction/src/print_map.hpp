@@ -4,11 +4,15 @@
 #include <array>
 #include <optional>
 
+#include "vantage/raycore/lens.hpp"
+
 namespace vantage::detail {
 
-/// From a marker's print (as MarkerEdge has it) to pixels: a homography.
+/// From a marker's print (as MarkerEdge has it) to pixels: a homography, and after it the lens, if
+/// that is known. The homography then goes to the plane z = 1.
 struct PrintMap {
   Eigen::Matrix3d h;
+  const Lens* lens = nullptr;
 
   /// Nothing where it would be behind the camera.
   std::optional<Eigen::Vector2d> at(const Eigen::Vector2d& print) const;
@@ -24,6 +28,6 @@ struct PrintMap {
 inline const std::array<Eigen::Vector2d, 4> kPrintCorners = {{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}};
 
 /// The map that takes the print's corners to these pixels; nothing if three are on a line.
-std::optional<PrintMap> print_map(const std::array<Eigen::Vector2d, 4>& pixels);
+std::optional<PrintMap> print_map(const std::array<Eigen::Vector2d, 4>& pixels, const Lens* lens);
 
 }  // namespace vantage::detail

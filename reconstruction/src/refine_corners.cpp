@@ -171,8 +171,9 @@ void move(PrintMap& map, const Vector9d& by) {
 
 std::optional<RefinedCorners> refine_corners(const cv::Mat1f& light,
                                              const std::vector<MarkerEdge>& edges, int cells,
-                                             const std::array<Eigen::Vector2d, 4>& start) {
-  auto map = print_map(start);
+                                             const std::array<Eigen::Vector2d, 4>& start,
+                                             const Lens* lens) {
+  auto map = print_map(start, lens);
   if (!map) return std::nullopt;
   Step step;
   RefinedCorners refined;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "marker_edges.hpp"
+#include "vantage/raycore/lens.hpp"
 
 namespace vantage::detail {
 
@@ -23,10 +24,12 @@ struct RefinedCorners {
 /// a dark neighbour, which the edges inside do not know of. Glow, ink and a camera whose gamma is
 /// not sRGB make black grow or shrink: edges on both sides of the black tell how much.
 ///
-/// `start` is off by a pixel or two. Nothing if too few edges (`kSupport`) are where the corners
-/// say, or if the corners are uncertain.
+/// `start` is off by a pixel or two, and in the image. With a lens (may be null), sides are
+/// straight lines through it; without, on the image. Nothing if too few edges (`kSupport`) are
+/// where the corners say, or if the corners are uncertain.
 std::optional<RefinedCorners> refine_corners(const cv::Mat1f& light,
                                              const std::vector<MarkerEdge>& edges, int cells,
-                                             const std::array<Eigen::Vector2d, 4>& start);
+                                             const std::array<Eigen::Vector2d, 4>& start,
+                                             const Lens* lens);
 
 }  // namespace vantage::detail

@@ -3,8 +3,9 @@
 #include <Eigen/Geometry>
 #include <array>
 
-#include "vantage/reconstruction/marker.hpp"
+#include "simulator/marker_print.hpp"
 #include "vantage/raycore/solids.hpp"
+#include "vantage/reconstruction/marker.hpp"
 
 namespace vantage::test {
 

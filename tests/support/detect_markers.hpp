@@ -18,7 +18,7 @@ struct DetectedMarker {
 inline std::vector<DetectedMarker> detect_markers(const ColorImage& image,
                                                   const std::string& dictionary) {
   std::vector<DetectedMarker> markers;
-  for (const Observation& seen : ArucoDetector({{dictionary}}).detect(image)) {
+  for (const Observation& seen : ArucoDetector({{dictionary}, {}}).detect(image)) {
     const SeenPoints& points = std::get<SeenPoints>(seen.data);
     DetectedMarker marker;
     marker.id = std::stoi(seen.key.value.substr(seen.key.value.find('/') + 1));
