@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <string>
 #include <vector>
@@ -14,7 +15,7 @@ struct DetectedMarker {
   double sigma_px = 0;
 };
 
-/// What the library's detector finds with one dictionary; only the ids are left of the keys.
+/// What the library's detector finds with one dictionary, by id, which is left of the keys.
 inline std::vector<DetectedMarker> detect_markers(const ColorImage& image,
                                                   const std::string& dictionary) {
   std::vector<DetectedMarker> markers;
@@ -26,6 +27,8 @@ inline std::vector<DetectedMarker> detect_markers(const ColorImage& image,
     marker.sigma_px = points.sigma_px;
     markers.push_back(marker);
   }
+  std::stable_sort(markers.begin(), markers.end(),
+                   [](const auto& a, const auto& b) { return a.id < b.id; });
   return markers;
 }
 
