@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "pose_fit.hpp"
 #include "symmetry.hpp"
@@ -11,7 +12,6 @@
 namespace vantage::detail {
 namespace {
 
-constexpr int kFewestPoints = 4;       // three points fit several poses exactly
 constexpr double kSurfaceM = 0.002;    // what a mesh and a label's place may be off by
 constexpr std::size_t kMostWays = 12;  // of one object
 constexpr std::size_t kFirm = 3;       // sightings that are no coincidence
@@ -128,20 +128,24 @@ std::optional<Elected> Election::elected_around(std::size_t vote) {
     drop(vote, "no pose of an object explains it");
     return std::nullopt;
   }
-  Elected elected = ways(std::move(*first));
-  const Way& best = elected.front();
-  if (best.net() <= 0) {
-    drop_votes_for(best, "as many observations speak against the object that it would be");
-    poll_->withdraw(vote);
-    return std::nullopt;
+  const double net = first->net();
+  std::string reason;
+  std::vector<Way> found = ways(std::move(*first));
+  if (net <= 0 && found.size() == 1) {
+    reason = "as many observations speak against the object that it would be";
+  } else {
+    if (net <= 0) found.erase(found.begin());
+    Elected elected = weighed(std::move(found));
+    if (!taken(elected.candidate.best())) {
+      accept(elected);
+      return elected;
+    }
+    found = {{elected.candidate.best(), {}}};
+    reason = "an object of the type that it would be is there already";
   }
-  if (taken(best)) {
-    drop_votes_for(best, "an object of the type that it would be is there already");
-    poll_->withdraw(vote);
-    return std::nullopt;
-  }
-  accept(elected);
-  return elected;
+  drop_votes_for(found.front().explanation, reason);
+  drop(vote, reason);
+  return std::nullopt;
 }
 
 std::optional<Way> Election::way_from(std::size_t vote) {
@@ -188,7 +192,7 @@ std::vector<const Reading*> Election::pool(const ObjectType& type,
 }
 
 bool Election::worth_trying(std::size_t vote, const std::vector<std::size_t>& sightings,
-                            const Elected& ways) const {
+                            const std::vector<Way>& ways) const {
   if (!poll_->open(vote)) return false;
   const Explanation& first = ways.front().explanation;
   if (first.readings.size() < kFirm) return true;
@@ -208,10 +212,10 @@ bool Election::worth_trying(std::size_t vote, const std::vector<std::size_t>& si
   return 2 * agree >= sightings.size();
 }
 
-Elected Election::ways(Way first) {
+std::vector<Way> Election::ways(Way first) {
   std::vector<std::size_t> sightings;
   for (const Reading* reading : first.explanation.readings) sightings.push_back(reading->number);
-  Elected ways;
+  std::vector<Way> ways;
   ways.push_back(std::move(first));
   for (const std::size_t sighting : sightings) {
     for (const std::size_t vote : poll_->votes_of(sighting)) {
@@ -226,29 +230,44 @@ Elected Election::ways(Way first) {
       if (of_the_same && !known) ways.push_back(std::move(*way));
     }
   }
-  weigh(ways);
   return ways;
 }
 
-/// Normalised votes, times the likelihoods of what was measured; what is against the best is for
-/// none of them. What is beyond the evidence that decides is left out.
-void Election::weigh(Elected& ways) const {
-  const Explanation reference = ways.front().explanation;
-  const auto cost = [&](const Way& way) {
-    return excess(way.explanation, reference) - 2 * std::log(std::max(way.net(), 1e-3));
-  };
-  std::stable_sort(ways.begin(), ways.end(),
-                   [&](const Way& a, const Way& b) { return cost(a) < cost(b); });
-  const double least = cost(ways.front());
-  std::erase_if(ways, [&](const Way& way) { return cost(way) - least > options_.least_evidence; });
-  double sum = 0;
+/// Normalised votes, times the likelihoods of what was measured, chi-square over its ratio to the
+/// degrees of freedom where that is above 1. What is against the best way is for none of them. Ways
+/// that are worse by more than the evidence that decides are left out.
+Elected Election::weighed(std::vector<Way> ways) const {
+  std::vector<std::pair<FinalFit, Verdict>> fits;
+  std::vector<double> nets;
   for (Way& way : ways) {
-    way.probability = std::exp(-0.5 * (cost(way) - least));
-    sum += way.probability;
+    nets.push_back(way.net());
+    fits.emplace_back(fit_finally(std::move(way.explanation)), std::move(way.verdict));
   }
-  const Way& best = ways.front();
-  sum *= 1 + double(best.verdict.against) / std::max(best.net(), 1e-3);
-  for (Way& way : ways) way.probability /= sum;
+  const FinalFit& first = fits.front().first;
+  const double scale = std::max(1.0, first.chi_square / std::max(1, first.degrees_of_freedom));
+  std::vector<double> costs;
+  for (std::size_t i = 0; i < fits.size(); ++i) {
+    const double more = excess(fits[i].first.explanation, first.explanation);
+    costs.push_back(more / scale - 2 * std::log(nets[i]));
+  }
+  std::vector<std::size_t> order(fits.size());
+  std::iota(order.begin(), order.end(), std::size_t(0));
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return costs[a] < costs[b]; });
+  Elected elected;
+  double sum = 0;
+  for (const std::size_t i : order) {
+    const double worse = costs[i] - costs[order.front()];
+    if (worse > options_.least_evidence) continue;
+    elected.candidate.ways.push_back(std::move(fits[i].first));
+    elected.candidate.shares.push_back(std::exp(-0.5 * worse));
+    elected.verdicts.push_back(std::move(fits[i].second));
+    sum += elected.candidate.shares.back();
+  }
+  for (double& share : elected.candidate.shares) share /= sum;
+  const double net = nets[order.front()];
+  elected.candidate.there = net / (net + double(elected.verdicts.front().against));
+  return elected;
 }
 
 void Election::drop(std::size_t vote, const std::string& reason) {
@@ -256,8 +275,7 @@ void Election::drop(std::size_t vote, const std::string& reason) {
   poll_->withdraw(vote);
 }
 
-void Election::drop_votes_for(const Way& way, const std::string& reason) {
-  const Explanation& explanation = way.explanation;
+void Election::drop_votes_for(const Explanation& explanation, const std::string& reason) {
   for (const Reading* reading : explanation.readings) {
     for (const std::size_t vote : poll_->votes_of(reading->number)) {
       if (poll_->open(vote) &&
@@ -270,9 +288,9 @@ void Election::drop_votes_for(const Way& way, const std::string& reason) {
 }
 
 /// Two objects of a type are not in one place.
-bool Election::taken(const Way& way) const {
-  const TypePtr& type = way.explanation.type();
-  const Eigen::Vector3d centre = way.explanation.T_world_object * witnesses_->body(*type).centre();
+bool Election::taken(const Explanation& explanation) const {
+  const TypePtr& type = explanation.type();
+  const Eigen::Vector3d centre = explanation.T_world_object * witnesses_->body(*type).centre();
   return std::any_of(objects_.begin(), objects_.end(), [&](const auto& object) {
     if (object.first != type.get()) return false;
     const Eigen::Vector3d other = object.second * witnesses_->body(*type).centre();
@@ -281,15 +299,14 @@ bool Election::taken(const Way& way) const {
 }
 
 void Election::accept(const Elected& elected) {
-  const Way& best = elected.front();
-  const Explanation& explanation = best.explanation;
+  const Explanation& explanation = elected.candidate.best();
   objects_.emplace_back(explanation.type().get(), explanation.T_world_object);
   for (const Reading* reading : explanation.readings) {
     free_[reading->number] = false;
     for (const std::size_t vote : poll_->votes_of(reading->number)) poll_->withdraw(vote);
   }
   witnesses_->place(explanation.readings, explanation.T_world_object);
-  for (const auto& [sighting, feature] : best.verdict.labels) free_[sighting] = false;
+  for (const auto& [sighting, feature] : elected.verdicts.front().labels) free_[sighting] = false;
 }
 
 std::string Election::reason_against(std::size_t sighting) const {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "plausibility.hpp"
 #include "poll.hpp"
 #include "witnesses.hpp"
 
@@ -14,7 +15,6 @@ namespace vantage::detail {
 struct Way {
   Explanation explanation;
   Verdict verdict;
-  double probability = 1;
 
   /// Votes for it, less those against it.
   double net() const {
@@ -23,8 +23,11 @@ struct Way {
   }
 };
 
-/// Every way to explain the same sightings, the likeliest first.
-using Elected = std::vector<Way>;
+/// An object: every way to explain its sightings, the likeliest first, and what is said of that.
+struct Elected {
+  Candidate candidate;
+  std::vector<Verdict> verdicts;  ///< of each way
+};
 
 /// Takes objects out of the table of votes, the one with most votes first; what it explains has no
 /// other votes from then on. Not thread-safe.
@@ -54,13 +57,13 @@ class Election {
   std::optional<Elected> elected_around(std::size_t vote);
   std::optional<Way> way_from(std::size_t vote);
   std::vector<const Reading*> pool(const ObjectType& type, const Pose& T_world_object) const;
-  Elected ways(Way first);
+  std::vector<Way> ways(Way first);
   bool worth_trying(std::size_t vote, const std::vector<std::size_t>& sightings,
-                    const Elected& ways) const;
-  void weigh(Elected& ways) const;
+                    const std::vector<Way>& ways) const;
+  Elected weighed(std::vector<Way> ways) const;
   void drop(std::size_t vote, const std::string& reason);
-  void drop_votes_for(const Way& way, const std::string& reason);
-  bool taken(const Way& way) const;
+  void drop_votes_for(const Explanation& explanation, const std::string& reason);
+  bool taken(const Explanation& explanation) const;
   void accept(const Elected& elected);
 
   const Ballot* ballot_;

@@ -2,14 +2,12 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <cmath>
 #include <iterator>
 #include <optional>
 #include <set>
 
-#include "canonical_pose.hpp"
+#include "candidate_object.hpp"
 #include "instances.hpp"
-#include "plausibility.hpp"
 
 namespace vantage {
 namespace {
@@ -101,39 +99,6 @@ void reject_ambiguous(std::vector<Candidate>& candidates) {
     candidate.rejected =
         fmt::format("one feature in one view leaves {} poses open", candidate.ways.size());
   }
-}
-
-/// The covariance of T * S from that of T: S moves the origin.
-Matrix6d moved_origin(const Matrix6d& covariance, const Eigen::Vector3d& arm) {
-  Matrix6d by_pose = Matrix6d::Identity();
-  by_pose.block<3, 3>(0, 3) << 0, arm.z(), -arm.y(), -arm.z(), 0, arm.x(), arm.y(), -arm.x(), 0;
-  return by_pose * covariance * by_pose.transpose();
-}
-
-ReconstructedObject object_of(const Candidate& candidate) {
-  const Explanation& best = candidate.best();
-  const CanonicalPose canonical = canonical_pose(best);
-  ReconstructedObject object{best.type(), canonical.T_world_object};
-  object.covariance =
-      moved_origin(candidate.ways.front().covariance,
-                   canonical.T_world_object.translation() - best.T_world_object.translation());
-  object.probability = candidate.there * candidate.shares.front();
-  double squared_px = 0;
-  std::size_t points = 0;
-  for (std::size_t i = 0; i < best.readings.size(); ++i) {
-    const Evidence& evidence = best.each[i];
-    object.support.push_back(
-        {best.readings[i]->sighting->id, canonical.features[i], evidence.rms_px()});
-    squared_px += evidence.squared_px;
-    points += best.readings[i]->points_m.size();
-  }
-  object.rms_px = points > 0 ? std::sqrt(squared_px / double(points)) : 0;
-  for (std::size_t w = 1; w < candidate.ways.size(); ++w) {
-    const Explanation& way = candidate.ways[w].explanation;
-    object.alternatives.push_back(
-        {way.type(), canonical_pose(way).T_world_object, candidate.there * candidate.shares[w]});
-  }
-  return object;
 }
 
 /// Why a sighting is part of nothing.

@@ -1,15 +1,15 @@
-#include <algorithm>
-#include <cmath>
+#include <fmt/format.h>
 
+#include <algorithm>
+#include <set>
+
+#include "candidate_object.hpp"
 #include "election.hpp"
-#include "pose_fit.hpp"
 
 namespace vantage {
 namespace {
 
 using namespace detail;
-
-constexpr double kLossSigmas = 3;
 
 VoteGrid grid_for(const ReconstructOptions& options) {
   VoteGrid grid;
@@ -17,36 +17,36 @@ VoteGrid grid_for(const ReconstructOptions& options) {
   return grid;
 }
 
-PoseFit fitted(const Explanation& explanation) {
-  std::vector<PointTerm> points;
-  std::vector<PoseTerm> poses;
-  for (const Reading* reading : explanation.readings) {
-    const Sighting& sighting = *reading->sighting;
-    if (const SeenPoints* seen = sighting.points()) {
-      points.push_back({&sighting.view->lens, sighting.T_cam_world, reading->points_m, seen->pixels,
-                        seen->sigma_px});
-    } else {
-      const SeenPose& measured = *sighting.pose();
-      poses.push_back({*sighting.view->T_world_cam * measured.T_cam_feature,
-                       reading->T_object_feature, measured.sigma_m, measured.sigma_rad});
-    }
-  }
-  auto fit = fit_pose(points, poses, explanation.T_world_object, kLossSigmas);
-  return fit ? *fit : PoseFit{explanation.T_world_object, explanation.sum.information};
-}
-
-ReconstructedObject object_of(const Elected& elected) {
-  const Way& best = elected.front();
-  const Explanation& explanation = best.explanation;
-  const PoseFit fit = fitted(explanation);
-  ReconstructedObject object{explanation.type(), fit.T_ref_body, covariance_of(fit.information),
-                             best.probability, fit.rms_px};
-  for (std::size_t i = 0; i < explanation.readings.size(); ++i) {
-    const Reading& reading = *explanation.readings[i];
-    object.support.push_back({reading.sighting->id, reading.feature->index,
-                              reading.sighting->points() ? explanation.each[i].rms_px() : 0.0});
+/// Labels are for the best way.
+ReconstructedObject object_of(const Elected& elected, const Ballot& ballot) {
+  ReconstructedObject object = object_of(elected.candidate);
+  for (const auto& [sighting, feature] : elected.verdicts.front().labels) {
+    object.support.push_back({ballot.sightings[sighting].id, feature, 0});
   }
   return object;
+}
+
+/// Whether the object may also be of the same type at another pose.
+bool is_ambiguous(const Candidate& candidate) {
+  return std::any_of(candidate.ways.begin() + 1, candidate.ways.end(), [&](const FinalFit& way) {
+    return way.explanation.type() == candidate.best().type();
+  });
+}
+
+/// Everything that is not in an object, with its reason.
+void explain_rest(const Ballot& ballot, const Election& election, Reconstruction& result) {
+  std::set<ObservationId> known;
+  for (const auto& object : result.objects) {
+    for (const Support& support : object.support) known.insert(support.id);
+  }
+  for (const Unexplained& unexplained : result.unexplained) known.insert(unexplained.id);
+  for (std::size_t i = 0; i < ballot.sightings.size(); ++i) {
+    const ObservationId id = ballot.sightings[i].id;
+    if (known.contains(id)) continue;
+    result.unexplained.push_back({id, result.stopped == StopReason::none
+                                          ? election.reason_against(i)
+                                          : "not looked at: stopped before"});
+  }
 }
 
 }  // namespace
@@ -58,28 +58,21 @@ Reconstruction reconstruct_voting(std::span<const CameraView> views, const Knowl
   result.unexplained = std::move(gathered.unexplained);
   const Ballot ballot = ballot_of(gathered.sightings);
   Election election(ballot, options, grid_for(options));
-  std::vector<bool> explained(gathered.sightings.size(), false);
   while ((result.stopped = stop.reason()) == StopReason::none) {
     const auto elected = election.next();
     if (!elected) break;
-    const Way& best = elected->front();
-    for (const Reading* reading : best.explanation.readings) explained[reading->number] = true;
-    ReconstructedObject object = object_of(*elected);
-    for (const auto& [sighting, feature] : best.verdict.labels) {
-      explained[sighting] = true;
-      object.support.push_back({gathered.sightings[sighting].id, feature, 0});
+    const ReconstructedObject object = object_of(*elected, ballot);
+    if (options.keep_ambiguous || !is_ambiguous(elected->candidate)) {
+      result.objects.push_back(object);
+      continue;
     }
-    for (std::size_t i = 1; i < elected->size(); ++i) {
-      const Way& other = (*elected)[i];
-      object.alternatives.push_back(
-          {other.explanation.type(), fitted(other.explanation).T_ref_body, other.probability});
+    for (const Support& support : object.support) {
+      result.unexplained.push_back(
+          {support.id, fmt::format("its {} may be tilted {} ways", object.type->name,
+                                   1 + object.alternatives.size())});
     }
-    result.objects.push_back(std::move(object));
   }
-  for (std::size_t i = 0; i < explained.size(); ++i) {
-    if (explained[i]) continue;
-    result.unexplained.push_back({gathered.sightings[i].id, election.reason_against(i)});
-  }
+  explain_rest(ballot, election, result);
   sort_result(knowledge, result);
   return result;
 }
