@@ -105,24 +105,24 @@ class ImageJudge {
   std::vector<double> scores_;
 };
 
-/// ADD and ADD-S do not depend on the image.
-void add_distances(const Judge& judge, const Reconstruction& reconstruction, BopScores& scores) {
-  double add = 0, add_s = 0, count = 0;
+}  // namespace
+
+std::vector<EstimateErrors> estimate_errors(const Judge& judge,
+                                            const Reconstruction& reconstruction) {
+  std::vector<EstimateErrors> errors;
   const auto matches = judge.matches(reconstruction);
   for (std::size_t e = 0; e < matches.size(); ++e) {
     if (!matches[e]) continue;
     const std::size_t t = matches[e]->truth;
+    const ErrorModel& model = judge.model_of(t);
     const Pose& estimate = reconstruction.objects[e].T_world_object;
-    add += add_m(judge.model_of(t), estimate, judge.truth()[t].T_world_object);
-    add_s += add_s_m(judge.model_of(t), estimate, judge.truth()[t].T_world_object);
-    ++count;
+    const Pose& truth = judge.truth()[t].T_world_object;
+    errors.push_back({e, t, translation_error_m(estimate, truth),
+                      rotation_error_rad(estimate, truth), add_m(model, estimate, truth),
+                      add_s_m(model, estimate, truth), mssd_m(model, estimate, truth)});
   }
-  if (count == 0) return;
-  scores.add_m = add / count;
-  scores.add_s_m = add_s / count;
+  return errors;
 }
-
-}  // namespace
 
 std::optional<BopScores> bop_scores(const Judge& judge, const Reconstruction& reconstruction,
                                     std::span<const ScoredImage> images) {
@@ -146,7 +146,6 @@ std::optional<BopScores> bop_scores(const Judge& judge, const Reconstruction& re
   if (with_depth > 0) {
     scores.ar_vsd = double(sum.vsd) / (thresholds * thresholds * double(with_depth));
   }
-  add_distances(judge, reconstruction, scores);
   return scores;
 }
 

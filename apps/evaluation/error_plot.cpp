@@ -3,27 +3,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 
 #include "evaluation/plot_axis.hpp"
+#include "evaluation/plot_marks.hpp"
 
 namespace vantage {
 namespace {
 
 constexpr double kPanelWidth = 300, kPanelHeight = 300;  // of the axes' frame
 constexpr double kLeft = 74, kRight = 22, kTop = 108, kBottom = 62;
-constexpr double kMark = 4.5;  // half its size
-
-/// Okabe and Ito's colours, of different brightness, too.
-struct Style {
-  const char* color;
-  const char* dashes;
-};
-constexpr std::array<Style, 5> kStyles{{{"#d55e00", "7 4"},
-                                        {"#0072b2", "none"},
-                                        {"#009e73", "2 3"},
-                                        {"#cc79a7", "9 3 2 3"},
-                                        {"#555555", "4 2"}}};
 
 std::string escaped(const std::string& text) {
   std::string result;
@@ -56,30 +44,6 @@ std::string text(double x, double y, const char* kind, const std::string& conten
 std::string line(double x0, double y0, double x1, double y1, const std::string& look) {
   return fmt::format("<line x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\" {}/>\n", x0, y0,
                      x1, y1, look);
-}
-
-/// Square, disc, triangle, diamond, cross: told apart without colour. Every other one is hollow.
-std::string mark(std::size_t series, double x, double y) {
-  const char* color = kStyles[series % kStyles.size()].color;
-  const std::string hollow = fmt::format("fill=\"#fff\" stroke=\"{}\" stroke-width=\"1.8\"", color);
-  const std::string full = fmt::format("fill=\"{0}\" stroke=\"{0}\" stroke-width=\"1\"", color);
-  const double r = kMark;
-  const auto path = [&](const std::string& shape, const std::string& look) {
-    return fmt::format("<path transform=\"translate({:.1f} {:.1f})\" d=\"{}\" {}/>\n", x, y, shape,
-                       look);
-  };
-  switch (series % kStyles.size()) {
-    case 0:
-      return path(fmt::format("M{0} {0}H-{0}V-{0}H{0}Z", r), hollow);
-    case 1:
-      return fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{}\" {}/>\n", x, y, r, full);
-    case 2:
-      return path(fmt::format("M0 -{0}L{0} {1}H-{0}Z", r + 1, r), hollow);
-    case 3:
-      return path(fmt::format("M0 -{0}L{0} 0L0 {0}L-{0} 0Z", r + 1), full);
-    default:
-      return path(fmt::format("M-{0} -{0}L{0} {0}M-{0} {0}L{0} -{0}", r), hollow);
-  }
 }
 
 /// Where a panel's values are on the page.
@@ -146,14 +110,14 @@ std::string draw_bar(const PlotPoint& point, double x, const Frame& frame, const
 
 /// Series stand a little beside each other, so that no bar hides another one.
 std::string draw_series(const PlotPanel& panel, std::size_t index, const Frame& frame) {
-  const Style& style = kStyles[index % kStyles.size()];
+  const PlotStyle style = plot_style(index);
   const double step = std::min(0.2, 0.6 / double(panel.series.size()));
   const double beside = step * (double(index) - 0.5 * double(panel.series.size() - 1));
   std::string bars, marks, way;
   for (const PlotPoint& point : panel.series[index].points) {
     const double x = frame.x(point.x + beside), y = frame.y(point.mean);
     if (point.deviation > 0) bars += draw_bar(point, x, frame, style.color);
-    marks += mark(index, x, y);
+    marks += plot_mark(index, x, y);
     way += fmt::format("{}{:.1f} {:.1f}", way.empty() ? "M" : "L", x, y);
   }
   if (way.empty()) return "";
@@ -167,11 +131,11 @@ std::string draw_series(const PlotPanel& panel, std::size_t index, const Frame& 
 std::string draw_legend(const std::vector<PlotSeries>& series, double x) {
   std::string svg;
   for (std::size_t i = 0; i < series.size(); ++i) {
-    const Style& style = kStyles[i % kStyles.size()];
+    const PlotStyle style = plot_style(i);
     svg += line(x, 62, x + 40, 62,
                 fmt::format("stroke=\"{}\" stroke-width=\"1.8\" stroke-dasharray=\"{}\"",
                             style.color, style.dashes));
-    svg += mark(i, x + 20, 62) + text(x + 48, 66, "legend", series[i].name);
+    svg += plot_mark(i, x + 20, 62) + text(x + 48, 66, "legend", series[i].name);
     x += 76 + 7.5 * double(series[i].name.size());
   }
   return svg;

@@ -10,24 +10,17 @@
 namespace vantage {
 namespace {
 
-/// The views of every trial.
-std::vector<std::vector<CameraView>> trials_of(std::span<const CameraView> views,
-                                               const SubsetPlan& plan) {
-  const std::set<FeatureKey> ignored(plan.ignored.begin(), plan.ignored.end());
-  std::vector<std::vector<CameraView>> trials;
-  for (std::size_t trial = 0; trial < plan.trials; ++trial) {
-    trials.push_back(disturbed(views, plan.disturbance, trial, plan.keys));
-    for (CameraView& view : trials.back()) {
-      std::erase_if(view.observations,
-                    [&](const Observation& seen) { return ignored.contains(seen.key); });
-    }
-  }
-  return trials;
-}
-
-std::vector<CameraView> picked(const std::vector<CameraView>& views, const CameraSubset& subset) {
+/// What the cameras of a subset see in a trial.
+std::vector<CameraView> seen_in(std::span<const CameraView> views, const CameraSubset& subset,
+                                std::size_t trial, const SubsetPlan& plan,
+                                const std::set<FeatureKey>& ignored) {
+  const std::vector<CameraView> all = disturbed(views, plan.disturbance, trial, plan.keys);
   std::vector<CameraView> some;
-  for (const std::size_t view : subset) some.push_back(views[view]);
+  for (const std::size_t view : subset) {
+    some.push_back(all[view]);
+    std::erase_if(some.back().observations,
+                  [&](const Observation& seen) { return ignored.contains(seen.key); });
+  }
   return some;
 }
 
@@ -36,7 +29,7 @@ std::vector<CameraView> picked(const std::vector<CameraView>& views, const Camer
 std::vector<SubsetRun> evaluate_subsets(std::span<const CameraView> views, const Judge& judge,
                                         std::span<const EvaluatedMethod> methods,
                                         const SubsetPlan& plan, const StopToken& stop) {
-  const auto trials = trials_of(views, plan);
+  const std::set<FeatureKey> ignored(plan.ignored.begin(), plan.ignored.end());
   const auto seen = seen_objects(views, judge.truth());
   std::vector<SubsetRun> runs(plan.subsets.size() * plan.trials);
   stop.expect(runs.size());
@@ -45,7 +38,7 @@ std::vector<SubsetRun> evaluate_subsets(std::span<const CameraView> views, const
     SubsetRun& run = runs[i];
     run = {i / plan.trials, i % plan.trials, {}};
     const CameraSubset& subset = plan.subsets[run.subset];
-    const std::vector<CameraView> some = picked(trials[run.trial], subset);
+    const auto some = seen_in(views, subset, run.trial, plan, ignored);
     for (const EvaluatedMethod& method : methods) {
       run.verdicts.push_back(judge.judge(method.reconstruct(some), seen_by(seen, subset)));
     }

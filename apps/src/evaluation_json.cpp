@@ -46,21 +46,40 @@ Json bop_json(const std::optional<BopScores>& bop) {
           {"ar", scaled(bop->average_recall())},
           {"ar_vsd", scaled(bop->ar_vsd)},
           {"ar_mssd", bop->ar_mssd},
-          {"ar_mspd", bop->ar_mspd},
-          {"add_mm", scaled(bop->add_m, kMillimetres)},
-          {"add_s_mm", scaled(bop->add_s_m, kMillimetres)}};
+          {"ar_mspd", bop->ar_mspd}};
 }
 
-Json method_json(const MethodEvaluation& method) {
+/// What was reconstructed from all cameras, and BOP's errors of it.
+Json estimates_json(const MethodEvaluation& method, const std::vector<TrueObject>& truth) {
+  Json list = Json::array();
+  for (const ReconstructedObject& object : method.from_all_cameras.objects) {
+    list.push_back({{"type", object.type->name},
+                    {"T_world_object", to_json(object.T_world_object)},
+                    {"probability", object.probability},
+                    {"object", nullptr}});
+  }
+  for (const EstimateErrors& errors : method.errors) {
+    list[errors.estimate].update({{"object", truth[errors.truth].name},
+                                  {"te_mm", errors.translation_m * kMillimetres},
+                                  {"re_deg", errors.rotation_rad * kDegrees},
+                                  {"add_mm", errors.add_m * kMillimetres},
+                                  {"add_s_mm", errors.add_s_m * kMillimetres},
+                                  {"mssd_mm", errors.mssd_m * kMillimetres}});
+  }
+  return list;
+}
+
+Json method_json(const MethodEvaluation& method, const std::vector<TrueObject>& truth) {
   Json by_cameras = Json::array();
   for (const auto& [cameras, summary] : method.by_cameras) {
-    Json entry{{"cameras", cameras}};
+    Json entry = {{"cameras", cameras}};
     entry.update(summary_json(summary));
     by_cameras.push_back(entry);
   }
   return {{"method", method.name},
           {"by_cameras", by_cameras},
           {"all", summary_json(method.all)},
+          {"estimates", estimates_json(method, truth)},
           {"bop", bop_json(method.bop)}};
 }
 
@@ -110,7 +129,9 @@ Json evaluation_to_json(const ReconstructionEvaluation& evaluation) {
                        {"T_world_object", to_json(object.T_world_object)}});
   }
   for (const EvaluatedCamera& camera : evaluation.cameras) cameras.push_back(camera_json(camera));
-  for (const MethodEvaluation& method : evaluation.methods) methods.push_back(method_json(method));
+  for (const MethodEvaluation& method : evaluation.methods) {
+    methods.push_back(method_json(method, evaluation.truth));
+  }
   for (const SubsetRun& run : evaluation.runs) runs.push_back(run_json(run, evaluation));
   return {{"vantage", kVersion},
           {"true_objects", objects},

@@ -17,6 +17,11 @@ std::string mean_and_deviation(const std::optional<Spread>& spread, double scale
   return fmt::format("{:.3g} ± {:.2g}", spread->mean * scale, spread->deviation * scale);
 }
 
+std::string mean_of(const std::vector<double>& values) {
+  const std::optional<Spread> spread = spread_of(values);
+  return spread ? fmt::format("{:.3g}", spread->mean) : "–";
+}
+
 std::string percent(const std::optional<double>& share) {
   return share ? fmt::format("{:.1f}", 100 * *share) : "–";
 }
@@ -33,10 +38,14 @@ std::string row(const std::string& method, const std::string& cameras, const Run
 std::string bop_line(const MethodEvaluation& method) {
   if (!method.bop) return "";
   const BopScores& bop = *method.bop;
-  return fmt::format("{:<8} AR {} (VSD {}, MSSD {}, MSPD {} %), ADD {:.3g} mm, ADD-S {:.3g} mm\n",
+  std::vector<double> add, add_s;
+  for (const EstimateErrors& errors : method.errors) {
+    add.push_back(errors.add_m * kMillimetres);
+    add_s.push_back(errors.add_s_m * kMillimetres);
+  }
+  return fmt::format("{:<8} AR {} % (VSD {}, MSSD {}, MSPD {}), ADD {} mm, ADD-S {} mm\n",
                      method.name, percent(bop.average_recall()), percent(bop.ar_vsd),
-                     percent(bop.ar_mssd), percent(bop.ar_mspd),
-                     bop.add_m.value_or(0) * kMillimetres, bop.add_s_m.value_or(0) * kMillimetres);
+                     percent(bop.ar_mssd), percent(bop.ar_mspd), mean_of(add), mean_of(add_s));
 }
 
 /// As the thesis calls the methods.

@@ -12,6 +12,8 @@
 namespace vantage {
 namespace {
 
+constexpr std::size_t kMostRuns = 1'000'000;  // their errors are kept, and written
+
 /// A view that was located, with what it saw of the board, too: a board's marker that is misread
 /// may seem to be an object's.
 struct UsableView {
@@ -71,14 +73,20 @@ std::vector<EvaluatedMethod> methods_of(const EvaluationSettings& settings,
 
 std::vector<CameraSubset> subsets_of(const std::vector<CameraView>& views, const Judge& judge,
                                      const EvaluationSettings& settings) {
-  const std::size_t least = std::min(settings.least_cameras, views.size());
-  auto subsets = camera_subsets(views.size(), least, settings.most_cameras.value_or(views.size()));
-  if (!settings.covering) return subsets;
-  subsets = covering_subsets(views, judge.truth(), subsets);
-  if (!subsets.empty()) return subsets;
-  throw bad_input("--subsets covering",
-                  "no subset of these sizes sees every object that all cameras together see; allow "
-                  "more cameras with --sizes, or evaluate all subsets");
+  auto subsets = camera_subsets(views.size(), settings.least_cameras,
+                                settings.most_cameras.value_or(views.size()));
+  if (settings.covering) subsets = covering_subsets(views, judge.truth(), subsets);
+  if (subsets.empty()) {
+    throw bad_input("--subsets covering",
+                    "no subset of these sizes sees every object that all cameras together see; "
+                    "allow more cameras with --sizes, or evaluate all subsets");
+  }
+  if (subsets.size() * settings.trials > kMostRuns) {
+    throw Error(ErrorCode::out_of_resources, "--trials",
+                fmt::format("{} trials of {} subsets are more than {} runs; ask for fewer",
+                            settings.trials, subsets.size(), kMostRuns));
+  }
+  return subsets;
 }
 
 std::vector<ScoredImage> scored_images(const BopScene& scene,
@@ -140,11 +148,12 @@ ReconstructionEvaluation evaluate_reconstruction(const BopScene& scene, const Wo
   if (stop.stop_requested()) return evaluation;
 
   const std::vector<ScoredImage> images = scored_images(scene, usable);
+  std::vector<CameraView> undisturbed;
+  for (const UsableView& one : usable) undisturbed.push_back(observed.views[one.image]);
   for (const EvaluatedMethod& method : methods) {
-    std::vector<CameraView> clean;  // without the board
-    for (const UsableView& one : usable) clean.push_back(observed.views[one.image]);
+    const Reconstruction all = method.reconstruct(undisturbed);
     evaluation.methods.push_back(
-        {method.name, {}, {}, bop_scores(judge, method.reconstruct(clean), images)});
+        {method.name, {}, {}, all, estimate_errors(judge, all), bop_scores(judge, all, images)});
   }
   summarise(evaluation);
   return evaluation;

@@ -37,7 +37,9 @@ struct MethodEvaluation {
   std::string name;
   std::map<std::size_t, RunSummary> by_cameras;
   RunSummary all;
-  std::optional<BopScores> bop;  ///< of what was made from all cameras, undisturbed
+  Reconstruction from_all_cameras;     ///< undisturbed
+  std::vector<EstimateErrors> errors;  ///< its
+  std::optional<BopScores> bop;        ///< its
 };
 
 struct ReconstructionEvaluation {
