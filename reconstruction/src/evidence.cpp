@@ -19,6 +19,26 @@ Eigen::Matrix3d rotation_of(const Eigen::Vector3d& vector) {
   return Eigen::AngleAxisd(angle, vector / angle).toRotationMatrix();
 }
 
+/// The standard deviation, per coordinate, by which the error of its camera's pose moves a point.
+double camera_sigma_px(const Sighting& sighting, const Pose& T_world_object,
+                       const Eigen::Vector3d& point) {
+  const Matrix6d& covariance = sighting.view->covariance;
+  if (covariance.isZero(0)) return 0;
+  const Eigen::Vector3d p_world = T_world_object * point;
+  const Eigen::Vector3d p = sighting.T_cam_world * p_world;
+  if (!is_before(p)) return 0;
+  Eigen::Matrix<double, 2, 3> by_point;
+  sighting.lens->project(p, &by_point);
+  by_point = (by_point * sighting.T_cam_world.rotation()).eval();
+  const Eigen::Vector3d arm = p_world - sighting.view->T_world_cam->translation();
+  Eigen::Matrix<double, 2, 6> by_camera;
+  by_camera.leftCols<3>() = -by_point;
+  for (int row = 0; row < 2; ++row) {
+    by_camera.block<1, 3>(row, 3) = -arm.cross(by_point.row(row).transpose()).transpose();
+  }
+  return std::sqrt((by_camera * covariance * by_camera.transpose()).trace() / 2);
+}
+
 /// Adds a point's two residuals.
 void add_point(const Sighting& sighting, const Pose& T_world_object, const Eigen::Vector3d& point,
                const Eigen::Vector2d& pixel, double weight, Evidence& evidence) {
@@ -120,7 +140,12 @@ Evidence evidence_of(const Reading& reading, const Pose& T_world_object, double 
     return evidence_of_pose(reading, *seen, T_world_object);
   }
   const SeenPoints& seen = *reading.sighting->points();
-  const double sigma = std::max(seen.sigma_px, least_sigma_px);
+  const double own = std::max(seen.sigma_px, least_sigma_px);
+  const double camera =
+      least_sigma_px > 0
+          ? camera_sigma_px(*reading.sighting, T_world_object, reading.points_m.front()) / 2
+          : 0;
+  const double sigma = std::hypot(own, camera);
   Evidence evidence;
   for (std::size_t i = 0; i < reading.points_m.size() && evidence.in_front; ++i) {
     add_point(*reading.sighting, T_world_object, reading.points_m[i], seen.pixels[i],

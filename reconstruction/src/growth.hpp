@@ -20,7 +20,8 @@ struct Bounds {
   double least_sigma_px() const { return inlier_px / 6; }
 
   /// The largest chi-square of a reading that is explained: for points that of `inlier_px` in the
-  /// root mean square, for poses the 99.9 % quantile with six degrees of freedom.
+  /// root mean square (where the camera's pose has a covariance: the root of its square and that of
+  /// three standard deviations), for poses the 99.9 % quantile with six degrees of freedom.
   double largest_chi_square(const Reading& reading) const;
 
   /// Whether the reading is explained by a pose at which this is its evidence.

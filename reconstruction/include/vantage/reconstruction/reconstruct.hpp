@@ -67,7 +67,9 @@ VANTAGE_API std::vector<KnownObject> known_objects(const Reconstruction& result,
 
 /// Bounds that the methods share.
 struct ReconstructOptions {
-  double inlier_px = 3.0;  ///< multi-view PnP, voting: residuals above it belong to something else
+  /// Multi-view PnP, voting: residuals above it belong to something else. Multi-view PnP allows for
+  /// three standard deviations more where the pose of a camera has a covariance.
+  double inlier_px = 3.0;
   double merge_m = 0.01;   ///< SVD: none; voting: votes that are nearer are for one object
   double least_evidence = 13.8;  ///< see LocateOptions
   /// An object that a single camera sees by a single marker may be tilted two ways. Off: such
