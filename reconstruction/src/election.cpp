@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+#include <limits>
 
 #include "pose_fit.hpp"
 #include "symmetry.hpp"
@@ -13,6 +13,7 @@ namespace vantage::detail {
 namespace {
 
 constexpr double kSurfaceM = 0.002;    // what a mesh and a label's place may be off by
+constexpr double kWrongId = 0.05;      // the share of observations that are none
 constexpr std::size_t kMostWays = 12;  // of one object
 constexpr std::size_t kFirm = 3;       // sightings that are no coincidence
 
@@ -31,16 +32,14 @@ std::size_t common(const Explanation& a, const Explanation& b) {
   return count;
 }
 
-/// Chi-square of `way`, less that of `first`, over what both explain.
-double excess(const Explanation& way, const Explanation& first) {
-  double sum = 0;
-  for (std::size_t i = 0; i < way.readings.size(); ++i) {
-    for (std::size_t k = 0; k < first.readings.size(); ++k) {
-      if (way.readings[i]->number != first.readings[k]->number) continue;
-      sum += way.each[i].chi_square - first.each[k].chi_square;
-    }
+/// What the fit says against a way: chi-square above what noise makes of it, less what a sighting
+/// that it explains is worth, as it needs no wrong id to explain it.
+double cost_of(const FinalFit& fit, double scale) {
+  double cost = 0;
+  for (const Evidence& evidence : fit.explanation.each) {
+    cost += (evidence.chi_square - 2 * evidence.points) / scale + 2 * std::log(kWrongId);
   }
-  return sum;
+  return cost;
 }
 
 bool same(const Way& a, const Way& b) {
@@ -128,22 +127,16 @@ std::optional<Elected> Election::elected_around(std::size_t vote) {
     drop(vote, "no pose of an object explains it");
     return std::nullopt;
   }
-  const double net = first->net();
-  std::string reason;
-  std::vector<Way> found = ways(std::move(*first));
-  if (net <= 0 && found.size() == 1) {
-    reason = "as many observations speak against the object that it would be";
-  } else {
-    if (net <= 0) found.erase(found.begin());
-    Elected elected = weighed(std::move(found));
-    if (!taken(elected.candidate.best())) {
-      accept(elected);
-      return elected;
-    }
-    found = {{elected.candidate.best(), {}}};
-    reason = "an object of the type that it would be is there already";
+  const Explanation start = first->explanation;
+  auto elected = weighed(ways(std::move(*first)));
+  if (elected && !taken(elected->candidate.best())) {
+    accept(*elected);
+    return elected;
   }
-  drop_votes_for(found.front().explanation, reason);
+  const std::string reason = elected
+                                 ? "an object of the type that it would be is there already"
+                                 : "as many observations speak against the object that it would be";
+  drop_votes_for(start, reason);
   drop(vote, reason);
   return std::nullopt;
 }
@@ -221,7 +214,7 @@ std::vector<Way> Election::ways(Way first) {
     for (const std::size_t vote : poll_->votes_of(sighting)) {
       if (ways.size() >= kMostWays || !worth_trying(vote, sightings, ways)) continue;
       auto way = way_from(vote);
-      if (!way || way->net() <= 0) continue;
+      if (!way) continue;
       const std::size_t shared = common(way->explanation, ways.front().explanation);
       const bool of_the_same = 2 * shared >= way->explanation.readings.size() &&
                                2 * shared >= ways.front().explanation.readings.size();
@@ -235,37 +228,40 @@ std::vector<Way> Election::ways(Way first) {
 
 /// Normalised votes, times the likelihoods of what was measured, chi-square over its ratio to the
 /// degrees of freedom where that is above 1. What is against the best way is for none of them. Ways
-/// that are worse by more than the evidence that decides are left out.
-Elected Election::weighed(std::vector<Way> ways) const {
-  std::vector<std::pair<FinalFit, Verdict>> fits;
-  std::vector<double> nets;
+/// that fit worse by more than the evidence that decides are left out, and so are those with no
+/// more votes for than against them. Nothing if none is left.
+std::optional<Elected> Election::weighed(std::vector<Way> ways) const {
+  std::vector<double> nets, costs;
+  std::vector<FinalFit> fits;
+  double scale = std::numeric_limits<double>::infinity();
   for (Way& way : ways) {
     nets.push_back(way.net());
-    fits.emplace_back(fit_finally(std::move(way.explanation)), std::move(way.verdict));
+    fits.push_back(fit_finally(std::move(way.explanation)));
+    const double ratio = fits.back().chi_square / std::max(1, fits.back().degrees_of_freedom);
+    scale = std::min(scale, std::max(1.0, ratio));
   }
-  const FinalFit& first = fits.front().first;
-  const double scale = std::max(1.0, first.chi_square / std::max(1, first.degrees_of_freedom));
-  std::vector<double> costs;
-  for (std::size_t i = 0; i < fits.size(); ++i) {
-    const double more = excess(fits[i].first.explanation, first.explanation);
-    costs.push_back(more / scale - 2 * std::log(nets[i]));
+  for (const FinalFit& fit : fits) costs.push_back(cost_of(fit, scale));
+  const double least = *std::min_element(costs.begin(), costs.end());
+  std::vector<std::pair<double, std::size_t>> shares;
+  for (std::size_t i = 0; i < ways.size(); ++i) {
+    if (costs[i] - least > options_.least_evidence || nets[i] <= 0) continue;
+    shares.emplace_back(-nets[i] * std::exp(-0.5 * (costs[i] - least)), i);
   }
-  std::vector<std::size_t> order(fits.size());
-  std::iota(order.begin(), order.end(), std::size_t(0));
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return costs[a] < costs[b]; });
-  Elected elected;
+  if (shares.empty()) return std::nullopt;
+  std::sort(shares.begin(), shares.end());  // the largest first, of equals the first
+  const Explanation best = fits[shares.front().second].explanation;
+  std::erase_if(shares, [&](const auto& share) {
+    return common(best, fits[share.second].explanation) < best.readings.size();
+  });
   double sum = 0;
-  for (const std::size_t i : order) {
-    const double worse = costs[i] - costs[order.front()];
-    if (worse > options_.least_evidence) continue;
-    elected.candidate.ways.push_back(std::move(fits[i].first));
-    elected.candidate.shares.push_back(std::exp(-0.5 * worse));
-    elected.verdicts.push_back(std::move(fits[i].second));
-    sum += elected.candidate.shares.back();
+  for (const auto& [share, i] : shares) sum -= share;
+  Elected elected;
+  for (const auto& [share, i] : shares) {
+    elected.candidate.ways.push_back(std::move(fits[i]));
+    elected.candidate.shares.push_back(-share / sum);
+    elected.verdicts.push_back(std::move(ways[i].verdict));
   }
-  for (double& share : elected.candidate.shares) share /= sum;
-  const double net = nets[order.front()];
+  const double net = nets[shares.front().second];
   elected.candidate.there = net / (net + double(elected.verdicts.front().against));
   return elected;
 }

@@ -60,7 +60,7 @@ class Election {
   std::vector<Way> ways(Way first);
   bool worth_trying(std::size_t vote, const std::vector<std::size_t>& sightings,
                     const std::vector<Way>& ways) const;
-  Elected weighed(std::vector<Way> ways) const;
+  std::optional<Elected> weighed(std::vector<Way> ways) const;
   void drop(std::size_t vote, const std::string& reason);
   void drop_votes_for(const Explanation& explanation, const std::string& reason);
   bool taken(const Explanation& explanation) const;

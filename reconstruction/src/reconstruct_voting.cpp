@@ -33,6 +33,24 @@ bool is_ambiguous(const Candidate& candidate) {
   });
 }
 
+/// What is not seen speaks too: see plausibility.hpp.
+void judge(std::vector<Elected>& all, std::span<const CameraView> views,
+           const ReconstructOptions& options) {
+  std::vector<Candidate> judged;
+  for (const Elected& elected : all) judged.push_back(elected.candidate);
+  reject_misread(judged, {options.inlier_px});
+  weigh(judged, views, options);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    Candidate& candidate = all[i].candidate;
+    candidate.there *= judged[i].there;
+    candidate.rejected = judged[i].rejected;
+    if (candidate.rejected.empty() && !options.keep_ambiguous && is_ambiguous(candidate)) {
+      candidate.rejected = fmt::format("its {} may be tilted {} ways",
+                                       candidate.best().type()->name, candidate.ways.size());
+    }
+  }
+}
+
 /// Everything that is not in an object, with its reason.
 void explain_rest(const Ballot& ballot, const Election& election, Reconstruction& result) {
   std::set<ObservationId> known;
@@ -58,18 +76,21 @@ Reconstruction reconstruct_voting(std::span<const CameraView> views, const Knowl
   result.unexplained = std::move(gathered.unexplained);
   const Ballot ballot = ballot_of(gathered.sightings);
   Election election(ballot, options, grid_for(options));
+  std::vector<Elected> all;
   while ((result.stopped = stop.reason()) == StopReason::none) {
-    const auto elected = election.next();
+    auto elected = election.next();
     if (!elected) break;
-    const ReconstructedObject object = object_of(*elected, ballot);
-    if (options.keep_ambiguous || !is_ambiguous(elected->candidate)) {
+    all.push_back(std::move(*elected));
+  }
+  judge(all, views, options);
+  for (const Elected& elected : all) {
+    const ReconstructedObject object = object_of(elected, ballot);
+    if (elected.candidate.rejected.empty()) {
       result.objects.push_back(object);
       continue;
     }
     for (const Support& support : object.support) {
-      result.unexplained.push_back(
-          {support.id, fmt::format("its {} may be tilted {} ways", object.type->name,
-                                   1 + object.alternatives.size())});
+      result.unexplained.push_back({support.id, elected.candidate.rejected});
     }
   }
   explain_rest(ballot, election, result);

@@ -6,7 +6,7 @@
 namespace vantage::detail {
 namespace {
 
-constexpr double kSigmas = 3;
+constexpr double kSameMarker = 0.85;  // sizes: beyond it, there is room for another one
 
 /// The standard deviation of a point of an object along the direction in which it is largest.
 double sigma_of(const Vote& vote, const Eigen::Vector3d& p_object) {
@@ -80,7 +80,9 @@ const TypeFeature* Witnesses::carried(const Witness& witness, const ObjectType& 
     if (feature->type.get() != &type) continue;
     if (const Marker* marker = marker_of(*feature)) {
       const double distance = (marker->T_object_marker.translation() - p).norm();
-      if (distance <= 0.5 * marker->size_m + tolerance_m) return feature;
+      if (distance <= std::min(0.5 * marker->size_m + tolerance_m, kSameMarker * marker->size_m)) {
+        return feature;
+      }
       continue;
     }
     const auto* label = std::get_if<FeatureLabel>(&type.features[feature->index].geometry);
@@ -107,7 +109,7 @@ Verdict Witnesses::verdict(const ObjectType& type, const Pose& T_world_object, d
   for (auto witness = from; witness != witnesses_.end(); ++witness) {
     if (witness->p_world.x() > centre.x() + reach) break;
     if ((witness->p_world - centre).norm() > reach) continue;
-    const double tolerance = std::min(slack_m + kSigmas * witness->sigma_m, 0.5 * shape.radius_m());
+    const double tolerance = slack_m + witness->sigma_m;
     const Sighting& sighting = ballot_->sightings[witness->number];
     if (const TypeFeature* feature = carried(*witness, type, T_world_object, tolerance)) {
       if (sighting.label() && free[witness->number]) {

@@ -64,6 +64,29 @@ TEST_CASE("voting: instances of one type side by side are told apart") {
   }
 }
 
+TEST_CASE("voting: where the table's lattice lies in the world makes no difference") {
+  Random random(14);
+  const MemoryKnowledgeBase knowledge(
+      {marked_box("cube", kCube, 0), marked_box("brick", {0.1, 0.06, 0.04}, 10)});
+  for (std::uint32_t s = 0; s < scene_count(10); ++s) {
+    auto views = cameras_around(random, 4);
+    look_at(views, scattered(random, knowledge.types(), 6, 0.2),
+            {.sigma_px = 0.3, .missing = 0.1, .wrong_id = 0.05}, random);
+    const Reconstruction here = reconstruct_voting(views, knowledge);
+    const Pose T_there_here = random.pose(0.5);
+    for (CameraView& view : views) view.T_world_cam = T_there_here * *view.T_world_cam;
+    const Reconstruction there = reconstruct_voting(views, knowledge);
+    REQUIRE(there.objects.size() == here.objects.size());
+    for (std::size_t i = 0; i < here.objects.size(); ++i) {
+      const ReconstructedObject &a = here.objects[i], &b = there.objects[i];
+      REQUIRE(a.type == b.type);
+      CHECK(a.support.size() == b.support.size());
+      CHECK(std::abs(a.probability - b.probability) < 1e-4);
+      check_pose(b, T_there_here * a.T_world_object, 2e-6, 1e-4);
+    }
+  }
+}
+
 TEST_CASE("voting: clutter with missing markers and 5 % wrong ids") {
   Random random(13);
   const MemoryKnowledgeBase knowledge({marked_box("cube", kCube, 0),
@@ -119,8 +142,8 @@ TEST_CASE("voting: a marker, a pose, a label and single points together, none of
       {{"pose", "box"}, SeenPose{views[1].T_world_cam->inverse() * off, 0.004, 0.04}});
   const auto undecided = reds(reconstruct_voting(views, knowledge));
   REQUIRE(undecided.size() == 2);
-  CHECK(std::abs(undecided[0].second - 0.5) < 1e-6);
-  CHECK(std::abs(undecided[1].second - 0.5) < 1e-6);
+  CHECK(std::abs(undecided[0].second - undecided[1].second) < 1e-9);
+  CHECK(undecided[0].second > 0.49);
   see_label(views[1], {"color", "red"}, truth * Eigen::Vector3d(0.0, 0.025, 0.0));
 
   const Reconstruction result = reconstruct_voting(views, knowledge);
@@ -184,10 +207,10 @@ TEST_CASE("voting: types with the same front are alternatives of the same probab
   REQUIRE(result.objects.size() == 1);
   const ReconstructedObject& object = result.objects[0];
   CHECK(object.type->name == "cube");
-  CHECK(std::abs(object.probability - 0.5) < 1e-6);
+  CHECK(object.probability > 0.499);
   REQUIRE(object.alternatives.size() == 1);
   CHECK(object.alternatives[0].type->name == "long box");
-  CHECK(std::abs(object.alternatives[0].probability - 0.5) < 1e-6);
+  CHECK(std::abs(object.alternatives[0].probability - object.probability) < 1e-9);
   CHECK(result.unexplained.empty());
 }
 
@@ -203,7 +226,7 @@ TEST_CASE("voting: what a type does not carry, where it would have its surface, 
   REQUIRE(result.objects.size() == 1);
   CHECK(result.objects[0].type->name == "marked");
   CHECK(result.objects[0].alternatives.empty());
-  CHECK(result.objects[0].probability == 1);
+  CHECK(result.objects[0].probability > 0.99);
 
   // A label that nothing carries there is enough to remove what one marker suggests.
   ObjectType other = marked_box("other", {0.02, 0.02, 0.02}, 50);
@@ -240,7 +263,7 @@ TEST_CASE("voting: a single marker from the front may be tilted two ways; more v
       sum += other.probability;
       has_truth = has_truth || pose_error(*other.type, other.T_world_object, Pose()).rad < 0.35;
     }
-    CHECK(std::abs(sum - 1) < 1e-9);
+    CHECK(std::abs(sum - 0.95) < 1e-9);  // it may also be a wrong id
     CHECK(has_truth);
     ambiguous += !object.alternatives.empty();
     ReconstructOptions strict;
