@@ -91,8 +91,10 @@ int main(int argc, char** argv) {
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;
   add("castle/svd", vantage::reconstruct_svd, castle);
   add("castle/pnp", vantage::reconstruct_pnp, castle);
+  add("castle/voting", vantage::reconstruct_voting, castle);
   add("clutter/svd", vantage::reconstruct_svd, clutter);
   add("clutter/pnp", vantage::reconstruct_pnp, clutter);
+  add("clutter/voting", vantage::reconstruct_voting, clutter);
   benchmark::RunSpecifiedBenchmarks();
   benchmark::Shutdown();
   return 0;
