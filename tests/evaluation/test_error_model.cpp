@@ -44,12 +44,12 @@ TEST_CASE("a continuous symmetry is cut into 315 turns, for 1 % of the diameter 
 
 TEST_CASE("discrete motions come first, then the turns; two axes stand side by side") {
   const Pose flip = turn(std::numbers::pi, Eigen::Vector3d::UnitX(), {0.01, 0, 0});
-  const ContinuousSymmetry around_z{Eigen::Vector3d::UnitZ(), {}};
+  const ContinuousSymmetry around_z{Eigen::Vector3d::UnitZ()};
   const auto motions = symmetry_motions({.discrete = {flip}, .continuous = {around_z}});
   REQUIRE(motions.size() == 2 * 315);
   CHECK(same(motions[315], flip));
   CHECK(same(motions[315 + 10], motions[10] * flip));
-  const ContinuousSymmetry around_x{Eigen::Vector3d::UnitX(), {}};
+  const ContinuousSymmetry around_x{Eigen::Vector3d::UnitX()};
   CHECK(symmetry_motions({.discrete = {}, .continuous = {around_z, around_x}}).size() == 2 * 315);
 }
 
