@@ -46,7 +46,9 @@ class Walk {
     const json& resolved = resolve(root_, any_schema, value);
     const json& schema = resolved.is_object() ? resolved : kAnything;
     if (schema.contains("type") && !is_of_any_type(value, schema["type"])) {
-      fail(pointer, fmt::format("found {}; expected {}", shown(value), in_words(root_, schema)));
+      json typed = schema;
+      typed.erase("oneOf");  // which speaks of the keys of what is none
+      fail(pointer, fmt::format("found {}; expected {}", shown(value), in_words(root_, typed)));
     }
     if (value.is_number_float() && !std::isfinite(value.get<double>())) {
       fail(pointer, fmt::format("found {}; expected a finite number", shown(value)));

@@ -25,7 +25,8 @@ bool holds(const json& condition, const json& value) {
   for (const json& key : condition.value("required", json::array())) {
     if (!value.contains(key.get<std::string>())) return false;
   }
-  for (const auto& [key, schema] : condition.value("properties", json::object()).items()) {
+  const json properties = condition.value("properties", json::object());
+  for (const auto& [key, schema] : properties.items()) {
     if (value.contains(key) && value[key] != schema.at("const")) return false;
   }
   return true;
