@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -53,14 +54,13 @@ Lens::Lens(const Intrinsics& intrinsics, const Distortion& distortion, std::stri
     if (std::isfinite(c)) continue;
     throw bad_input(where_, fmt::format("a coefficient is {}; expected finite numbers", c));
   }
-  if (d_.none()) return;
   const double right = k_.width - 0.5, bottom = k_.height - 0.5;
   const auto along = [](double length, const auto& look) {
     const int lines = int(std::ceil(length / kLineSpacing));
     for (int i = 0; i <= lines; ++i) look(-0.5 + length * i / lines);
   };
-  along(k_.width, [&](double u) { check_line_to(u, -0.5), check_line_to(u, bottom); });
-  along(k_.height, [&](double v) { check_line_to(-0.5, v), check_line_to(right, v); });
+  along(k_.width, [&](double u) { follow_line_to(u, -0.5), follow_line_to(u, bottom); });
+  along(k_.height, [&](double v) { follow_line_to(-0.5, v), follow_line_to(right, v); });
 }
 
 Eigen::Vector2d Lens::distort(const Eigen::Vector2d& xy) const {
@@ -96,10 +96,10 @@ bool Lens::undistort(const Eigen::Vector2d& distorted, Eigen::Vector2d& xy) cons
   return false;
 }
 
-void Lens::check_line_to(double u, double v) const {
+void Lens::follow_line_to(double u, double v) {
   const Eigen::Vector2d border((u - k_.cx) / k_.fx, (v - k_.cy) / k_.fy);
-  Eigen::Vector2d from = Eigen::Vector2d::Zero();
-  for (int step = 1; step <= kStepsPerLine; ++step) {
+  Eigen::Vector2d from = d_.none() ? border : Eigen::Vector2d::Zero();
+  for (int step = 1; step <= kStepsPerLine && !d_.none(); ++step) {
     Eigen::Vector2d to = from;
     if (!undistort(border * step / kStepsPerLine, to)) throw folds(where_, d_, u, v);
     // Newton's method may have jumped over a fold and landed behind it.
@@ -109,6 +109,7 @@ void Lens::check_line_to(double u, double v) const {
     }
     from = to;
   }
+  reach_ = std::max(reach_, from.norm());
 }
 
 PixelSight Lens::sight(double u, double v, const Eigen::Vector2d& guess) const {

@@ -19,7 +19,7 @@ Eigen::Matrix3d log_by_left_step(const Eigen::Vector3d& v) {
 
 }  // namespace
 
-PointCost::PointCost(const PointTerm& term, const WideLens& lens) : term_(&term), lens_(&lens) {
+PointCost::PointCost(const PointTerm& term) : term_(&term), lens_(*term.lens) {
   set_num_residuals(int(2 * term.points_m.size()));
   mutable_parameter_block_sizes()->push_back(7);
 }
@@ -36,7 +36,7 @@ bool PointCost::Evaluate(double const* const* parameters, double* residuals,
   for (std::size_t i = 0; i < term_->points_m.size(); ++i) {
     const Eigen::Vector3d arm = rotation * term_->points_m[i];
     const Eigen::Vector2d at =
-        lens_->project(term_->T_cam_ref * (arm + t), derive ? &by_point : nullptr);
+        lens_.project(term_->T_cam_ref * (arm + t), derive ? &by_point : nullptr);
     Eigen::Map<Eigen::Vector2d>(residuals + 2 * i) = weight * (at - term_->pixels[i]);
     if (!derive) continue;
     by_point = (weight * by_point * term_->T_cam_ref.rotation()).eval();

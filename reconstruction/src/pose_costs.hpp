@@ -8,16 +8,16 @@
 namespace vantage::detail {
 
 /// The residuals of all points of a term, divided by sigma: one block, as Ceres' share of the time
-/// grows with the number of blocks. Never fails. Refers to both arguments.
+/// grows with the number of blocks. Never fails. Refers to the term.
 class PointCost final : public ceres::CostFunction {
  public:
-  PointCost(const PointTerm& term, const WideLens& lens);
+  explicit PointCost(const PointTerm& term);
   bool Evaluate(double const* const* parameters, double* residuals,
                 double** jacobians) const override;
 
  private:
   const PointTerm* term_;
-  const WideLens* lens_;
+  WideLens lens_;
 };
 
 /// The difference of a measured frame from where the body has it: 3 for the translation, 3 for the

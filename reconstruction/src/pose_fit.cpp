@@ -18,20 +18,6 @@
 namespace vantage::detail {
 namespace {
 
-/// Each lens once: terms share them.
-class WideLenses {
- public:
-  const WideLens& of(const Lens& lens) {
-    for (const WideLens& known : lenses_) {
-      if (&known.lens() == &lens) return known;
-    }
-    return lenses_.emplace_back(lens);
-  }
-
- private:
-  std::deque<WideLens> lenses_;
-};
-
 bool is_sound(const PointTerm& term) {
   const auto finite = [](const auto& point) { return point.allFinite(); };
   return term.lens && term.sigma_px > 0 && std::isfinite(term.sigma_px) &&
@@ -58,7 +44,7 @@ class FitProblem {
       : parameters_(parameters_of(start)), loss_sigmas_(loss_sigmas), problem_(options()) {
     problem_.AddParameterBlock(parameters_.data(), 7, &manifold_);
     for (const PointTerm& term : points) {
-      if (!term.points_m.empty()) add(point_costs_.emplace_back(term, lenses_.of(*term.lens)));
+      if (!term.points_m.empty()) add(point_costs_.emplace_back(term));
     }
     for (const PoseTerm& term : poses) add(pose_costs_.emplace_back(term));
   }
@@ -103,7 +89,6 @@ class FitProblem {
   PoseParameters parameters_;
   double loss_sigmas_;
   PoseManifold manifold_;
-  WideLenses lenses_;
   std::deque<PointCost> point_costs_;
   std::deque<PoseCost> pose_costs_;
   std::deque<ceres::CauchyLoss> losses_;
@@ -166,12 +151,11 @@ std::optional<PoseFit> fit_pose(std::span<const PointTerm> points, std::span<con
   if (!std::ranges::all_of(points, [&](const auto& p) { return all_before(p, fit.T_ref_body); })) {
     return {};
   }
-  WideLenses lenses;
   Eigen::VectorXd residuals;
   double square_px = 0;
   std::size_t count = 0;
   for (const PointTerm& term : points) {
-    add_term(PointCost(term, lenses.of(*term.lens)), fit.T_ref_body, loss_sigmas, fit, residuals);
+    add_term(PointCost(term), fit.T_ref_body, loss_sigmas, fit, residuals);
     const double square = residuals.squaredNorm() * term.sigma_px * term.sigma_px;
     const std::size_t n = std::max(term.points_m.size(), std::size_t(1));
     fit.rms_px_of_term.push_back(std::sqrt(square / double(n)));

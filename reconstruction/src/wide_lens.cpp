@@ -1,6 +1,5 @@
 #include "wide_lens.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 #include "vantage/raycore/error.hpp"
@@ -30,30 +29,20 @@ Eigen::Vector2d sight_of(const Lens& lens, const Eigen::Vector2d& pixel) {
   return xy;
 }
 
-WideLens::WideLens(const Lens& lens) : lens_(&lens) {
-  if (lens.distortion().none()) return;
-  const Intrinsics& k = lens.intrinsics();
-  for (const double u : {-0.5, k.width - 0.5}) {
-    for (const double v : {-0.5, k.height - 0.5}) {
-      radius_ = std::max(radius_, sight_of(lens, {u, v}).norm());
-    }
-  }
-}
-
 Eigen::Vector2d WideLens::distort(const Eigen::Vector2d& xy, Eigen::Matrix2d* slope) const {
   if (lens_->distortion().none()) {
     if (slope) slope->setIdentity();
     return xy;
   }
-  const double r = xy.norm();
-  if (r <= radius_) {
+  const double r = xy.norm(), reach = lens_->reach();
+  if (r <= reach) {
     if (slope) *slope = lens_->slope(xy);
     return lens_->distort(xy);
   }
-  const Eigen::Vector2d outwards = xy / r, border = outwards * radius_;
+  const Eigen::Vector2d outwards = xy / r, border = outwards * reach;
   if (slope) {
     const Eigen::Matrix2d I = Eigen::Matrix2d::Identity();
-    const Eigen::Matrix2d border_by_xy = radius_ / r * (I - outwards * outwards.transpose());
+    const Eigen::Matrix2d border_by_xy = reach / r * (I - outwards * outwards.transpose());
     *slope = I + (lens_->slope(border) - I) * border_by_xy;
   }
   return xy + lens_->distort(border) - border;

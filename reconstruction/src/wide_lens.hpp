@@ -16,19 +16,16 @@ namespace vantage::detail {
 /// image runs away from any pixel the farther behind a point lies.
 class WideLens {
  public:
-  explicit WideLens(const Lens& lens);
+  explicit WideLens(const Lens& lens) : lens_(&lens) {}
 
   /// @param by_point if not null, gets the derivatives by x, y and z.
   Eigen::Vector2d project(const Eigen::Vector3d& p_cam,
                           Eigen::Matrix<double, 2, 3>* by_point = nullptr) const;
 
-  const Lens& lens() const noexcept { return *lens_; }
-
  private:
   Eigen::Vector2d distort(const Eigen::Vector2d& xy, Eigen::Matrix2d* slope) const;
 
   const Lens* lens_;
-  double radius_ = 0;  // on the plane z = 1
 };
 
 /// What a pixel looks at, from any pixel of the image: (x, y) on the plane z = 1.

@@ -35,6 +35,10 @@ class VANTAGE_API Lens {
   const Intrinsics& intrinsics() const noexcept { return k_; }
   const Distortion& distortion() const noexcept { return d_; }
 
+  /// How far from the optical axis the image shows anything, on the plane z = 1. Beyond, nothing is
+  /// known of the lens: the polynomial may fold over.
+  double reach() const noexcept { return reach_; }
+
   /// Where on the plane z = 1 the point appears that is at `xy` without the lens (OpenCV's
   /// "Camera Calibration and 3D Reconstruction", the formula of x'' and y'').
   Eigen::Vector2d distort(const Eigen::Vector2d& xy) const;
@@ -52,11 +56,12 @@ class VANTAGE_API Lens {
 
  private:
   bool undistort(const Eigen::Vector2d& distorted, Eigen::Vector2d& xy) const;
-  void check_line_to(double u, double v) const;
+  void follow_line_to(double u, double v);
 
   Intrinsics k_;
   Distortion d_;
   std::string where_;
+  double reach_ = 0;
 };
 
 }  // namespace vantage

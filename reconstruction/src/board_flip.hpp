@@ -1,0 +1,35 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "board_fit.hpp"
+
+namespace vantage::detail {
+
+/// Poses in which a board, seen from far away, has nearly the same image: its mirror image by the
+/// plane across the line of sight, made proper by mirroring the board by its own principal planes.
+/// Exact for a planar board in parallel projection; close for one that is long and thin.
+std::vector<Pose> mirrored_poses(std::span<const BoardPair> all, const BoardFit& board);
+
+/// Other poses in which the same pairs have a least sum of squares of their own, found from these
+/// starts; the likeliest first. Not those that are the board's own pose, or each other's.
+std::vector<PoseFit> other_minima(std::span<const BoardPair> all, const BoardFit& board,
+                                  std::span<const Pose> starts);
+
+/// Whether two poses of the world in the camera's frame are different minima, and not one that was
+/// reached from two sides.
+bool differ(const Pose& a, const Pose& b);
+
+/// Degrees of freedom that are left for the residuals of so many points.
+double freedom_of(std::size_t points);
+
+/// What a chi-square is to be divided by where the residuals are larger than their sigmas say: what
+/// is left over is then the camera's calibration or the board's bend, and proves nothing.
+double excess_of(double chi_square, std::size_t points);
+
+/// The same, if the excess is more than chance gives once in a thousand; else 1: sigmas are
+/// believed unless they are wrong, as covariances would all be too large otherwise.
+double significant_excess_of(double chi_square, std::size_t points);
+
+}  // namespace vantage::detail

@@ -1,0 +1,207 @@
+#include "vantage/reconstruction/locate_camera.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "board_flip.hpp"
+#include "board_hypotheses.hpp"
+#include "marker_pose.hpp"
+
+namespace vantage {
+namespace {
+
+using detail::BoardFit;
+using detail::BoardPair;
+
+/// What of the board is seen.
+struct SeenBoard {
+  std::vector<BoardPair> pairs;
+  std::vector<std::size_t> observations;  ///< with a key of the board's, faulty ones too
+  std::size_t sound = 0;                  ///< how many of them have pairs
+  std::string fault;                      ///< of the first faulty one
+};
+
+std::string name_of(const FeatureKey& key) {
+  return key.type + " " + key.value;
+}
+
+SeenBoard look_for(const Lens& lens, std::span<const Observation> observations,
+                   std::span<const ObjectFeature> board) {
+  SeenBoard seen;
+  for (std::size_t o = 0; o < observations.size(); ++o) {
+    const auto* data = std::get_if<SeenPoints>(&observations[o].data);
+    if (!data) continue;
+    std::string fault = fault_of(observations[o]);
+    bool of_board = false, sound = false;
+    for (std::size_t f = 0; f < board.size(); ++f) {
+      if (board[f].key != observations[o].key) continue;
+      std::vector<Eigen::Vector3d> points = board[f].points();
+      if (points.empty()) continue;
+      of_board = true;
+      if (fault.empty() && points.size() != data->pixels.size()) {
+        fault = fmt::format("{} points; the board's has {}", data->pixels.size(), points.size());
+      }
+      if (!fault.empty()) continue;
+      sound = true;
+      seen.pairs.push_back({o, f, {&lens, {}, std::move(points), data->pixels, data->sigma_px}});
+    }
+    if (of_board) seen.observations.push_back(o);
+    seen.sound += sound ? 1 : 0;
+    if (of_board && !sound && seen.fault.empty()) {
+      seen.fault = name_of(observations[o].key) + ": " + fault;
+    }
+  }
+  return seen;
+}
+
+/// Why nothing can be known of the camera before anything is computed; empty if something can.
+std::string lack_of(const SeenBoard& seen, std::span<const Observation> observations,
+                    std::span<const ObjectFeature> board) {
+  if (seen.observations.empty()) {
+    std::string example;
+    if (!observations.empty()) example = fmt::format(" (e.g. {})", name_of(observations[0].key));
+    std::string wanted;
+    if (!board.empty()) wanted = fmt::format(" (e.g. {})", name_of(board.front().key));
+    return fmt::format(
+        "no marker of the board is seen: {} observations{}, none of them one of the board's {} "
+        "features{}; turn the camera to the board, or name the board's markers in the workcell",
+        observations.size(), example, board.size(), wanted);
+  }
+  if (seen.pairs.empty()) {
+    return fmt::format("all {} markers of the board that are seen are faulty, the first: {}",
+                       seen.observations.size(), seen.fault);
+  }
+  return {};
+}
+
+std::string disagreement(const SeenBoard& seen, const BoardFit* best, double inlier_px) {
+  if (!best) {
+    return fmt::format(
+        "no pose follows from the {} markers of the board that are seen: their points are "
+        "fewer than four, lie on one line, or are nowhere before the camera",
+        seen.sound);
+  }
+  return fmt::format(
+      "only {} of the {} markers of the board that are seen agree on a pose within {:g} px, "
+      "expected two at least; check the board's sizes and positions in the workcell and "
+      "the camera's calibration",
+      best->pairs.size(), seen.sound, inlier_px);
+}
+
+/// The camera's pose from the board's in its frame, with what the residuals say about it.
+LocatedPose located(std::span<const BoardPair> all, const BoardFit& board) {
+  Matrix6d information = Matrix6d::Zero();
+  for (const std::size_t i : board.pairs) {
+    detail::PointTerm term = all[i].term;
+    term.T_cam_ref = board.T_cam_world();  // and the body, which is the world, where it is
+    const auto j = detail::camera_jacobian(term, {});
+    information += j.transpose() * j / (term.sigma_px * term.sigma_px);
+  }
+  const double chi_square = board.fit.chi_square;
+  const double excess = detail::significant_excess_of(chi_square, board.points(all));
+  return {board.T_cam_world().inverse(), excess * detail::covariance_of(information),
+          board.fit.rms_px, chi_square};
+}
+
+/// Poses from which another minimum over the same pairs may be reached.
+std::vector<Pose> rival_starts(std::span<const BoardPair> all, const BoardFit& board,
+                               std::span<const Pose> hypotheses) {
+  constexpr std::size_t kMostHypotheses = 6;
+  std::vector<Pose> starts = detail::mirrored_poses(all, board);
+  std::vector<Eigen::Vector3d> points;
+  std::vector<Eigen::Vector2d> pixels;
+  for (const std::size_t i : board.pairs) {
+    const detail::PointTerm& term = all[i].term;
+    points.insert(points.end(), term.points_m.begin(), term.points_m.end());
+    pixels.insert(pixels.end(), term.pixels.begin(), term.pixels.end());
+  }
+  for (const auto& guess : detail::guess_poses(*all.front().term.lens, points, pixels)) {
+    starts.push_back(guess.T_cam_body);
+  }
+  const std::size_t count = std::min(hypotheses.size(), kMostHypotheses);
+  starts.insert(starts.end(), hypotheses.begin(), hypotheses.begin() + std::ptrdiff_t(count));
+  return starts;
+}
+
+std::string flip_reason(const LocatedPose& best, const LocatedPose& other, std::size_t markers,
+                        double evidence, double expected) {
+  const double turn = Eigen::AngleAxisd(Eigen::Matrix3d(best.T_world_cam.rotation().transpose() *
+                                                        other.T_world_cam.rotation()))
+                          .angle();
+  return fmt::format(
+      "the pose is ambiguous: two poses that differ by {:.3g} m and {:.3g}° explain the {} "
+      "{} of the board nearly equally well, chi-square {:.4g} and {:.4g}, a difference of "
+      "{:.3g} in units of the residuals' own variance, expected {:g}; move the camera closer "
+      "or aside, or add markers that do not lie in the same plane",
+      (best.T_world_cam.translation() - other.T_world_cam.translation()).norm(),
+      turn * 180 / EIGEN_PI, markers, markers == 1 ? "marker" : "markers", best.chi_square,
+      other.chi_square, evidence, expected);
+}
+
+/// Another set of as many markers that speaks for another pose.
+const BoardFit* contradiction(std::span<const BoardPair> all, std::span<const BoardFit> fits) {
+  const BoardFit& best = fits.front();
+  for (const BoardFit& other : fits.subspan(1)) {
+    if (other.points(all) == best.points(all) && other.pairs != best.pairs) return &other;
+  }
+  return nullptr;
+}
+
+/// Fills in the pose, or the reason why it remains open.
+void decide(std::span<const BoardPair> all, std::span<const BoardFit> fits,
+            std::span<const Pose> hypotheses, double least_evidence, CameraLocation& location) {
+  BoardFit best = fits.front();
+  if (const BoardFit* other = contradiction(all, fits)) {
+    location.alternatives = {located(all, best), located(all, *other)};
+    location.reason = fmt::format(
+        "the pose is ambiguous: {} markers of the board speak for one pose and {} others for "
+        "another one; check which of them were moved, or are on the board twice",
+        best.pairs.size(), other->pairs.size());
+    return;
+  }
+  const auto rivals = detail::other_minima(all, best, rival_starts(all, best, hypotheses));
+  if (rivals.empty()) {
+    location.pose = located(all, best);
+    return;
+  }
+  BoardFit other = best;
+  other.fit = rivals.front();
+  if (other.fit.chi_square < best.fit.chi_square) std::swap(best, other);
+  const double excess = detail::excess_of(best.fit.chi_square, best.points(all));
+  const double evidence = (other.fit.chi_square - best.fit.chi_square) / excess;
+  if (evidence >= least_evidence) {
+    location.pose = located(all, best);
+    return;
+  }
+  location.alternatives = {located(all, best), located(all, other)};
+  location.reason = flip_reason(location.alternatives[0], location.alternatives[1],
+                                best.pairs.size(), evidence, least_evidence);
+}
+
+}  // namespace
+
+CameraLocation locate_camera(const Lens& lens, std::span<const Observation> observations,
+                             std::span<const ObjectFeature> board, const LocateOptions& options) {
+  CameraLocation location;
+  const SeenBoard seen = look_for(lens, observations, board);
+  location.outliers = seen.observations;
+  location.reason = lack_of(seen, observations, board);
+  if (!location.reason.empty()) return location;
+  const std::vector<Pose> hypotheses = detail::hypotheses(seen.pairs, options.inlier_px);
+  const auto fits = detail::settled_fits(seen.pairs, hypotheses, options.inlier_px);
+  const BoardFit* best = fits.empty() ? nullptr : &fits.front();
+  // A marker that is read wrongly fits to a pose of its own as well as a right one.
+  if (!best || (best->pairs.size() < 2 && seen.observations.size() > 1)) {
+    location.reason = disagreement(seen, best, options.inlier_px);
+    return location;
+  }
+  for (const std::size_t i : best->pairs) {
+    location.inliers.push_back(seen.pairs[i].observation);
+    std::erase(location.outliers, seen.pairs[i].observation);
+  }
+  decide(seen.pairs, fits, hypotheses, options.least_evidence, location);
+  return location;
+}
+
+}  // namespace vantage
