@@ -8,8 +8,9 @@
 #include <numbers>
 #include <vector>
 
-#include "simulator/marker_print.hpp"
 #include "simulator/marker_atlas.hpp"
+#include "simulator/marker_print.hpp"
+#include "simulator/srgb.hpp"
 #include "vantage/raycore/error.hpp"
 
 namespace vantage {
@@ -70,21 +71,41 @@ void print_paper(ColorImage& texture, const Region& region, const PrintedMarker&
       [](std::uint8_t* texel, const Eigen::Vector3d&) { std::fill_n(texel, 3, kWhite); });
 }
 
+/// How much of a texel around `p` (marker's frame) is white, 0 to 1.
+double whiteness(const PrintedMarker& marker, const Eigen::Vector3d& p, double texel_m) {
+  const int side = marker.cells.side;
+  const double cell_m = marker.size_m / side;
+  const auto is_white = [&](const Eigen::Vector3d& at) {
+    const double column = (at.x() + marker.size_m / 2) / cell_m;
+    const double row = (marker.size_m / 2 - at.y()) / cell_m;
+    if (std::min(column, row) < 0 || std::max(column, row) >= side) return true;
+    return bool(marker.cells.white[std::size_t(int(row) * side + int(column))]);
+  };
+  const auto is_inside = [&](double x) {
+    const double cells = x / cell_m + side / 2.0;
+    return std::abs(cells - std::round(cells)) * cell_m > 0.75 * texel_m;
+  };
+  if (is_inside(p.x()) && is_inside(p.y())) return is_white(p) ? 1 : 0;
+  constexpr int kSamples = 16;  // along each side
+  int white = 0;
+  for (int i = 0; i < kSamples * kSamples; ++i) {
+    const Eigen::Vector3d away((i % kSamples + 0.5) / kSamples - 0.5,
+                               (i / kSamples + 0.5) / kSamples - 0.5, 0);
+    white += is_white(p + texel_m * (marker.T_marker_face.rotation() * away)) ? 1 : 0;
+  }
+  return double(white) / (kSamples * kSamples);
+}
+
+/// Texels on an edge get what they have of both sides: detectors that know the pattern find its
+/// edges to a hundredth of a pixel, and with texels of one side only those are elsewhere.
 void print_cells(ColorImage& texture, const Region& region, const PrintedMarker& marker,
                  double texel_m) {
-  const int side = marker.cells.side;
-  const auto cell = [&](double from_edge) {
-    return std::clamp(int(std::floor(from_edge / marker.size_m * side)), 0, side - 1);
-  };
-  for_each_texel(
-      texture, region, marker, texel_m, marker.size_m / 2,
-      [&](std::uint8_t* texel, const Eigen::Vector3d& p) {
-        const int row = cell(marker.size_m / 2 - p.y());
-        const int column = cell(marker.size_m / 2 + p.x());
-        const bool white =
-            marker.cells.white[std::size_t(row) * std::size_t(side) + std::size_t(column)];
-        std::fill_n(texel, 3, white ? kWhite : kBlack);
-      });
+  const float black = srgb_to_linear(kBlack / 255.0f), white = srgb_to_linear(kWhite / 255.0f);
+  for_each_texel(texture, region, marker, texel_m, marker.size_m / 2 + texel_m,
+                 [&](std::uint8_t* texel, const Eigen::Vector3d& p) {
+                   const float part = float(whiteness(marker, p, texel_m));
+                   std::fill_n(texel, 3, linear_to_srgb8(black + part * (white - black)));
+                 });
 }
 
 void set_uv(TexturedMesh& result, const MarkedFace& face, const Region& region, double texel_m) {
