@@ -41,8 +41,10 @@ cv::Mat1f linear_light(const cv::Mat1b& grey) {
     light[std::size_t(code)] = float(c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4));
   }
   cv::Mat1f result(grey.size());
-  std::transform(grey.begin(), grey.end(), result.begin(),
-                 [&](unsigned char code) { return light[code]; });
+  for (int row = 0; row < grey.rows; ++row) {
+    std::transform(grey[row], grey[row] + grey.cols, result[row],
+                   [&](unsigned char code) { return light[code]; });
+  }
   return result;
 }
 

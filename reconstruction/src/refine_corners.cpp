@@ -12,7 +12,9 @@ namespace {
 using Vector9d = Eigen::Matrix<double, 9, 1>;
 using Matrix9d = Eigen::Matrix<double, 9, 9>;
 
-constexpr int kRounds = 6;
+constexpr int kMostRounds = 8;
+constexpr double kSettledPx = 0.002;  ///< a smaller step of the corners is the last one
+constexpr double kSpacingPx = 0.25;   ///< of light along an edge's normal
 constexpr double kSupport = 0.6;
 constexpr double kMaxSigmaPx = 0.5;
 constexpr double kDarkest = 0.02;     ///< fall of light that is an edge
@@ -35,7 +37,7 @@ double light_at(const cv::Mat1f& light, const Eigen::Vector2d& p) {
 /// blur does not move it. Nothing where light does not fall.
 std::optional<double> edge_offset(const cv::Mat1f& light, const Eigen::Vector2d& p,
                                   const Eigen::Vector2d& inwards, double reach) {
-  const int steps = int(std::ceil(reach / 0.125));
+  const int steps = int(std::ceil(reach / kSpacingPx));
   const double step = reach / steps;
   const double first = light_at(light, p - reach * inwards);
   double before = first, moment = 0;
@@ -161,6 +163,15 @@ std::vector<EdgeSpot> measure_all(const cv::Mat1f& light, const PrintMap& map,
   return spots;
 }
 
+/// How far the corner that moves most would move, pixels.
+double corner_motion(const PrintMap& map, const Vector9d& by) {
+  double most = 0;
+  for (const Eigen::Vector2d& corner : kPrintCorners) {
+    most = std::max(most, (map.slope_by_entries(corner) * by.head<8>()).norm());
+  }
+  return most;
+}
+
 void move(PrintMap& map, const Vector9d& by) {
   map.h.row(0) += by.head<3>().transpose();
   map.h.row(1) += by.segment<3>(3).transpose();
@@ -177,12 +188,14 @@ std::optional<RefinedCorners> refine_corners(const cv::Mat1f& light,
   if (!map) return std::nullopt;
   Step step;
   RefinedCorners refined;
-  for (int round = 0; round < kRounds; ++round) {
+  for (int round = 0; round < kMostRounds; ++round) {
     const auto spots = measure_all(light, *map, edges, cells);
     step = solve(spots);
     if (!step.by.allFinite()) return std::nullopt;
     refined.support = support(spots, step);
+    const double moved = corner_motion(*map, step.by);
     move(*map, step.by);
+    if (moved < kSettledPx) break;
   }
   for (std::size_t i = 0; i < 4; ++i) {
     const auto pixel = map->at(kPrintCorners[i]);
