@@ -42,6 +42,14 @@ double cost_of(const FinalFit& fit, double scale) {
   return cost;
 }
 
+/// Of the feature; object's frame.
+Eigen::Vector3d middle_of(const Reading& reading) {
+  if (reading.points_m.empty()) return reading.T_object_feature.translation();
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (const Eigen::Vector3d& point : reading.points_m) sum += point;
+  return sum / double(reading.points_m.size());
+}
+
 bool same(const Way& a, const Way& b) {
   return a.explanation.type() == b.explanation.type() &&
          equivalent(*a.explanation.type(), a.explanation.T_world_object,
@@ -133,9 +141,9 @@ std::optional<Elected> Election::elected_around(std::size_t vote) {
     accept(*elected);
     return elected;
   }
-  const std::string reason = elected
-                                 ? "an object of the type that it would be is there already"
-                                 : "as many observations speak against the object that it would be";
+  const std::string reason =
+      elected ? "an object of the type that it would be is there already"
+              : "more observations speak against the object that it would be than for it";
   drop_votes_for(start, reason);
   drop(vote, reason);
   return std::nullopt;
@@ -242,10 +250,12 @@ std::optional<Elected> Election::weighed(std::vector<Way> ways) const {
   }
   for (const FinalFit& fit : fits) costs.push_back(cost_of(fit, scale));
   const double least = *std::min_element(costs.begin(), costs.end());
+  const bool tie = *std::max_element(nets.begin(), nets.end()) == 0;
   std::vector<std::pair<double, std::size_t>> shares;
   for (std::size_t i = 0; i < ways.size(); ++i) {
-    if (costs[i] - least > options_.least_evidence || nets[i] <= 0) continue;
-    shares.emplace_back(-nets[i] * std::exp(-0.5 * (costs[i] - least)), i);
+    const double votes = tie && nets[i] == 0 ? 1 : nets[i];
+    if (costs[i] - least > options_.least_evidence || votes <= 0) continue;
+    shares.emplace_back(-votes * std::exp(-0.5 * (costs[i] - least)), i);
   }
   if (shares.empty()) return std::nullopt;
   std::sort(shares.begin(), shares.end());  // the largest first, of equals the first
@@ -261,8 +271,9 @@ std::optional<Elected> Election::weighed(std::vector<Way> ways) const {
     elected.candidate.shares.push_back(-share / sum);
     elected.verdicts.push_back(std::move(ways[i].verdict));
   }
-  const double net = nets[shares.front().second];
-  elected.candidate.there = net / (net + double(elected.verdicts.front().against));
+  const double against = double(elected.verdicts.front().against);
+  const double in_favour = nets[shares.front().second] + against;
+  elected.candidate.there = in_favour / (in_favour + against);
   return elected;
 }
 
@@ -283,14 +294,20 @@ void Election::drop_votes_for(const Explanation& explanation, const std::string&
   }
 }
 
-/// Two objects of a type are not in one place.
+/// Two objects of a type are not in one place, nor are their features: corners that are off by more
+/// than `inlier_px` may, alone, be tilted to somewhere else.
 bool Election::taken(const Explanation& explanation) const {
   const TypePtr& type = explanation.type();
-  const Eigen::Vector3d centre = explanation.T_world_object * witnesses_->body(*type).centre();
+  const auto near = [&](const Pose& other, const Eigen::Vector3d& p) {
+    return (other * p - explanation.T_world_object * p).norm() < options_.merge_m;
+  };
   return std::any_of(objects_.begin(), objects_.end(), [&](const auto& object) {
     if (object.first != type.get()) return false;
-    const Eigen::Vector3d other = object.second * witnesses_->body(*type).centre();
-    return (other - centre).norm() < options_.merge_m;
+    const auto& readings = explanation.readings;
+    return near(object.second, witnesses_->body(*type).centre()) ||
+           std::all_of(readings.begin(), readings.end(), [&](const Reading* reading) {
+             return near(object.second, middle_of(*reading));
+           });
   });
 }
 

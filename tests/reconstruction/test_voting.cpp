@@ -228,14 +228,20 @@ TEST_CASE("voting: what a type does not carry, where it would have its surface, 
   CHECK(result.objects[0].alternatives.empty());
   CHECK(result.objects[0].probability > 0.99);
 
-  // A label that nothing carries there is enough to remove what one marker suggests.
+  // Labels that nothing carries there make what one marker suggests doubtful, and then remove it.
   ObjectType other = marked_box("other", {0.02, 0.02, 0.02}, 50);
   other.features.push_back(label("color", "green"));
   const MemoryKnowledgeBase two({marked_box("plain", kCube, 0, 1), other});
   auto one = aimed({{0.6, 0.2, 0.2}});
   see_points(one[0], *two.types()[0], 0, Pose());
-  CHECK(reconstruct_voting(one, two).objects.size() == 1);
+  const Reconstruction sure = reconstruct_voting(one, two);
+  REQUIRE(sure.objects.size() == 1);
+  CHECK(sure.objects[0].probability > 0.9);
   see_label(one[0], {"color", "green"}, {0.025, 0.018, 0.018});
+  const Reconstruction doubtful = reconstruct_voting(one, two);
+  REQUIRE(doubtful.objects.size() == 1);
+  CHECK(doubtful.objects[0].probability < 0.55);
+  see_label(one[0], {"color", "green"}, {0.025, -0.018, 0.018});
   const Reconstruction without = reconstruct_voting(one, two);
   CHECK(without.objects.empty());
   check_accounts(one, without);
