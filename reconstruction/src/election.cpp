@@ -95,6 +95,7 @@ Election::Election(const Ballot& ballot, const ReconstructOptions& options, cons
 
 void Election::rank_votes() {
   said_.resize(poll_->size());
+  deferred_.resize(poll_->size());
   tbb::parallel_for(std::size_t(0), poll_->size(), [&](std::size_t i) {
     if (!poll_->open(i)) return;
     const Vote& vote = poll_->vote(i);
@@ -138,6 +139,7 @@ std::optional<Elected> Election::elected_around(std::size_t vote) {
   const Explanation start = first->explanation;
   auto elected = weighed(ways(std::move(*first)));
   if (elected && !taken(elected->candidate.best())) {
+    if (defer(vote, elected->net)) return std::nullopt;
     accept(*elected);
     return elected;
   }
@@ -147,6 +149,15 @@ std::optional<Elected> Election::elected_around(std::size_t vote) {
   drop_votes_for(start, reason);
   drop(vote, reason);
   return std::nullopt;
+}
+
+/// Puts off, once, what has turned out to have fewer votes than something else may have.
+bool Election::defer(std::size_t vote, double net) {
+  if (deferred_[vote] || queue_.empty() || net >= queue_.front().height) return false;
+  deferred_[vote] = true;
+  queue_.push_back({net, vote});
+  std::push_heap(queue_.begin(), queue_.end());
+  return true;
 }
 
 std::optional<Way> Election::way_from(std::size_t vote) {
@@ -272,7 +283,8 @@ std::optional<Elected> Election::weighed(std::vector<Way> ways) const {
     elected.verdicts.push_back(std::move(ways[i].verdict));
   }
   const double against = double(elected.verdicts.front().against);
-  const double in_favour = nets[shares.front().second] + against;
+  elected.net = nets[shares.front().second];
+  const double in_favour = elected.net + against;
   elected.candidate.there = in_favour / (in_favour + against);
   return elected;
 }

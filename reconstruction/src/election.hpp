@@ -27,6 +27,7 @@ struct Way {
 struct Elected {
   Candidate candidate;
   std::vector<Verdict> verdicts;  ///< of each way
+  double net = 0;                 ///< votes for the best way, less those against it
 };
 
 /// Takes objects out of the table of votes, the one with most votes first; what it explains has no
@@ -55,6 +56,7 @@ class Election {
   double height(std::size_t vote) const;
   void rank_votes();
   std::optional<Elected> elected_around(std::size_t vote);
+  bool defer(std::size_t vote, double net);
   std::optional<Way> way_from(std::size_t vote);
   std::vector<const Reading*> pool(const ObjectType& type, const Pose& T_world_object) const;
   std::vector<Way> ways(Way first);
@@ -72,6 +74,7 @@ class Election {
   std::unique_ptr<Witnesses> witnesses_;
   std::unique_ptr<Poll> poll_;
   std::vector<double> said_;  // of each vote: labels for it, less what is against it
+  std::vector<bool> deferred_;
   std::vector<Entry> queue_;  // a heap
   std::vector<bool> free_;    // of each sighting: no object has it
   std::vector<std::string> reasons_;
