@@ -117,6 +117,14 @@ TEST_CASE("two ways up to one ancestor are no circle; a long way is none, either
   Hierarchy chain;
   for (int i = 0; i < 20000; ++i) chain[std::to_string(i)] = {std::to_string(i + 1)};
   CHECK(MemoryKnowledgeBase({}, chain).is_a("0", "20000"));
+  Hierarchy lattice;  // 2^60 ways up
+  for (int i = 0; i < 60; ++i) {
+    const std::string up = std::to_string(i + 1);
+    lattice["a" + std::to_string(i)] = lattice["b" + std::to_string(i)] = {"a" + up, "b" + up};
+  }
+  const MemoryKnowledgeBase many({}, lattice);
+  CHECK(many.is_a("a0", "b60"));
+  CHECK_FALSE(many.is_a("a0", "c"));
 }
 
 TEST_CASE("nothing is its own ancestor") {

@@ -69,6 +69,7 @@ TEST_CASE("two features that are the same in everything are refused, others with
   const Pose there = Pose::from_translation({0, 0, 0.1});
   const std::vector<std::pair<ObjectFeature, ObjectFeature>> pairs{
       {marker(1), marker(1, {0, 0, 0.1})},
+      {marker(1), marker_feature({"4X4_50", 1, 0.02, Pose::from_translation({0, 0, 0.025})})},
       {{key, FeaturePoints{{{0, 0, 0}}}}, {key, FeaturePoints{{{0, 0, 1}}}}},
       {{key, FeaturePose{}}, {key, FeaturePose{there}}},
       {{key, FeatureLabel{}}, {key, FeatureLabel{{{0, 0, 0}}, 0.1}}},
