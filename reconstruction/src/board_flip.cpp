@@ -4,11 +4,22 @@
 #include <algorithm>
 #include <cmath>
 
+#include "pose_manifold.hpp"
+
 namespace vantage::detail {
 namespace {
 
 Eigen::Matrix3d mirror(const Eigen::Vector3d& normal) {
   return Eigen::Matrix3d::Identity() - 2 * normal * normal.transpose();
+}
+
+/// Whether a pose is farther from the board's than its residuals leave open.
+bool is_apart(const Pose& T_cam_world, const PoseFit& board) {
+  constexpr double kSigmas = 3;
+  Eigen::Matrix<double, 6, 1> step;
+  step.head<3>() = T_cam_world.translation() - board.T_ref_body.translation();
+  step.tail<3>() = log_of(T_cam_world.quaternion() * board.T_ref_body.quaternion().conjugate());
+  return step.dot(board.information * step) > kSigmas * kSigmas;
 }
 
 }  // namespace
@@ -37,23 +48,12 @@ std::vector<Pose> mirrored_poses(std::span<const BoardPair> all, const BoardFit&
   return poses;
 }
 
-bool differ(const Pose& a, const Pose& b) {
-  constexpr double kSame = 1e-4;  // radians, and parts of the distance
-  const double turn =
-      Eigen::AngleAxisd(Eigen::Matrix3d(a.rotation() * b.rotation().transpose())).angle();
-  const Eigen::Vector3d eye_a = a.inverse().translation(), eye_b = b.inverse().translation();
-  return turn > kSame || (eye_a - eye_b).norm() > kSame * a.translation().norm();
-}
-
 std::vector<PoseFit> other_minima(std::span<const BoardPair> all, const BoardFit& board,
                                   std::span<const Pose> starts) {
   std::vector<PoseFit> others;
   for (const Pose& start : starts) {
     const auto fit = fit_pairs(all, board.pairs, start, 0);
-    if (!fit || !differ(fit->T_ref_body, board.T_cam_world())) continue;
-    const bool known = std::ranges::any_of(
-        others, [&](const PoseFit& other) { return !differ(fit->T_ref_body, other.T_ref_body); });
-    if (!known) others.push_back(*fit);
+    if (fit && is_apart(fit->T_ref_body, board.fit)) others.push_back(*fit);
   }
   std::ranges::stable_sort(others, {}, &PoseFit::chi_square);
   return others;

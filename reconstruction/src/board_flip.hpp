@@ -13,13 +13,10 @@ namespace vantage::detail {
 std::vector<Pose> mirrored_poses(std::span<const BoardPair> all, const BoardFit& board);
 
 /// Other poses in which the same pairs have a least sum of squares of their own, found from these
-/// starts; the likeliest first. Not those that are the board's own pose, or each other's.
+/// starts; the likeliest first. Those less than three standard deviations from the board's own pose
+/// are no others: its covariance speaks for them.
 std::vector<PoseFit> other_minima(std::span<const BoardPair> all, const BoardFit& board,
                                   std::span<const Pose> starts);
-
-/// Whether two poses of the world in the camera's frame are different minima, and not one that was
-/// reached from two sides.
-bool differ(const Pose& a, const Pose& b);
 
 /// Degrees of freedom that are left for the residuals of so many points.
 double freedom_of(std::size_t points);
