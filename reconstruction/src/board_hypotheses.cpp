@@ -51,11 +51,15 @@ std::vector<BoardFit> settled_fits(std::span<const BoardPair> pairs,
   std::vector<BoardFit> fits;
   std::set<std::vector<std::size_t>>
       tried;  // what agrees roughly ends in the same fit, flips aside
+  bool all_agree = false;
   const auto add = [&](const Pose& start) {
-    if (auto fit = settle(pairs, start, inlier_px)) fits.push_back(std::move(*fit));
+    auto fit = settle(pairs, start, inlier_px);
+    if (!fit) return;
+    all_agree = all_agree || fit->pairs.size() == pairs.size();
+    fits.push_back(std::move(*fit));
   };
   for (const Pose& start : hypotheses) {
-    if (tried.size() == kMostSettled) break;
+    if (tried.size() == kMostSettled || all_agree) break;
     if (tried.insert(agreement(pairs, start, kRough * inlier_px).pairs).second) add(start);
   }
   const auto best_first = [&](const BoardFit& a, const BoardFit& b) {
@@ -63,7 +67,7 @@ std::vector<BoardFit> settled_fits(std::span<const BoardPair> pairs,
     return points_a != points_b ? points_a > points_b : a.fit.chi_square < b.fit.chi_square;
   };
   std::ranges::stable_sort(fits, best_first);
-  if (fits.empty()) return fits;
+  if (fits.empty() || all_agree) return fits;
   for (const Pose& flip : mirrored_poses(pairs, fits.front())) add(flip);
   std::ranges::stable_sort(fits, best_first);
   return fits;

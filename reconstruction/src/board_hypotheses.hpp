@@ -13,7 +13,7 @@ namespace vantage::detail {
 std::vector<Pose> hypotheses(std::span<const BoardPair> pairs, double inlier_px);
 
 /// Settles the most promising of them; the fit that most points agree with comes first, of equal
-/// ones that with the least chi-square. Some may be the same.
+/// ones that with the least chi-square. Some may be the same. Ends early once every pair agrees.
 std::vector<BoardFit> settled_fits(std::span<const BoardPair> pairs,
                                    std::span<const Pose> hypotheses, double inlier_px);
 

@@ -104,6 +104,10 @@ LocatedPose located(std::span<const BoardPair> all, const BoardFit& board) {
           board.fit.rms_px, chi_square};
 }
 
+double turn_between(const Pose& a, const Pose& b) {
+  return Eigen::AngleAxisd(Eigen::Matrix3d(a.rotation().transpose() * b.rotation())).angle();
+}
+
 /// Poses from which another minimum over the same pairs may be reached.
 std::vector<Pose> rival_starts(std::span<const BoardPair> all, const BoardFit& board,
                                std::span<const Pose> hypotheses) {
@@ -116,19 +120,22 @@ std::vector<Pose> rival_starts(std::span<const BoardPair> all, const BoardFit& b
     points.insert(points.end(), term.points_m.begin(), term.points_m.end());
     pixels.insert(pixels.end(), term.pixels.begin(), term.pixels.end());
   }
+  // From a start close to another one the same minimum is reached.
+  const auto add = [&](const Pose& start) {
+    constexpr double kClose = 0.05;  // radians
+    const auto close = [&](const Pose& known) { return turn_between(known, start) < kClose; };
+    if (!close(board.T_cam_world()) && std::ranges::none_of(starts, close)) starts.push_back(start);
+  };
   for (const auto& guess : detail::guess_poses(*all.front().term.lens, points, pixels)) {
-    starts.push_back(guess.T_cam_body);
+    add(guess.T_cam_body);
   }
-  const std::size_t count = std::min(hypotheses.size(), kMostHypotheses);
-  starts.insert(starts.end(), hypotheses.begin(), hypotheses.begin() + std::ptrdiff_t(count));
+  for (const Pose& pose : hypotheses.first(std::min(hypotheses.size(), kMostHypotheses))) add(pose);
   return starts;
 }
 
 std::string flip_reason(const LocatedPose& best, const LocatedPose& other, std::size_t markers,
                         double evidence, double expected) {
-  const double turn = Eigen::AngleAxisd(Eigen::Matrix3d(best.T_world_cam.rotation().transpose() *
-                                                        other.T_world_cam.rotation()))
-                          .angle();
+  const double turn = turn_between(best.T_world_cam, other.T_world_cam);
   return fmt::format(
       "the pose is ambiguous: two poses that differ by {:.3g} m and {:.3g}° explain the {} "
       "{} of the board nearly equally well, chi-square {:.4g} and {:.4g}, a difference of "
