@@ -6,6 +6,7 @@
 
 #include "board_flip.hpp"
 #include "board_hypotheses.hpp"
+#include "board_view.hpp"
 #include "marker_pose.hpp"
 
 namespace vantage {
@@ -13,67 +14,7 @@ namespace {
 
 using detail::BoardFit;
 using detail::BoardPair;
-
-/// What of the board is seen.
-struct SeenBoard {
-  std::vector<BoardPair> pairs;
-  std::vector<std::size_t> observations;  ///< with a key of the board's, faulty ones too
-  std::size_t sound = 0;                  ///< how many of them have pairs
-  std::string fault;                      ///< of the first faulty one
-};
-
-std::string name_of(const FeatureKey& key) {
-  return key.type + " " + key.value;
-}
-
-SeenBoard look_for(const Lens& lens, std::span<const Observation> observations,
-                   std::span<const ObjectFeature> board) {
-  SeenBoard seen;
-  for (std::size_t o = 0; o < observations.size(); ++o) {
-    const auto* data = std::get_if<SeenPoints>(&observations[o].data);
-    if (!data) continue;
-    std::string fault = fault_of(observations[o]);
-    bool of_board = false, sound = false;
-    for (std::size_t f = 0; f < board.size(); ++f) {
-      if (board[f].key != observations[o].key) continue;
-      std::vector<Eigen::Vector3d> points = board[f].points();
-      if (points.empty()) continue;
-      of_board = true;
-      if (fault.empty() && points.size() != data->pixels.size()) {
-        fault = fmt::format("{} points; the board's has {}", data->pixels.size(), points.size());
-      }
-      if (!fault.empty()) continue;
-      sound = true;
-      seen.pairs.push_back({o, f, {&lens, {}, std::move(points), data->pixels, data->sigma_px}});
-    }
-    if (of_board) seen.observations.push_back(o);
-    seen.sound += sound ? 1 : 0;
-    if (of_board && !sound && seen.fault.empty()) {
-      seen.fault = name_of(observations[o].key) + ": " + fault;
-    }
-  }
-  return seen;
-}
-
-/// Why nothing can be known of the camera before anything is computed; empty if something can.
-std::string lack_of(const SeenBoard& seen, std::span<const Observation> observations,
-                    std::span<const ObjectFeature> board) {
-  if (seen.observations.empty()) {
-    std::string example;
-    if (!observations.empty()) example = fmt::format(" (e.g. {})", name_of(observations[0].key));
-    std::string wanted;
-    if (!board.empty()) wanted = fmt::format(" (e.g. {})", name_of(board.front().key));
-    return fmt::format(
-        "no marker of the board is seen: {} observations{}, none of them one of the board's {} "
-        "features{}; turn the camera to the board, or name the board's markers in the workcell",
-        observations.size(), example, board.size(), wanted);
-  }
-  if (seen.pairs.empty()) {
-    return fmt::format("all {} markers of the board that are seen are faulty, the first: {}",
-                       seen.observations.size(), seen.fault);
-  }
-  return {};
-}
+using detail::SeenBoard;
 
 std::string disagreement(const SeenBoard& seen, const BoardFit* best, double inlier_px) {
   if (!best) {
@@ -191,9 +132,9 @@ void decide(std::span<const BoardPair> all, std::span<const BoardFit> fits,
 CameraLocation locate_camera(const Lens& lens, std::span<const Observation> observations,
                              std::span<const ObjectFeature> board, const LocateOptions& options) {
   CameraLocation location;
-  const SeenBoard seen = look_for(lens, observations, board);
+  const SeenBoard seen = detail::look_for(lens, observations, board);
   location.outliers = seen.observations;
-  location.reason = lack_of(seen, observations, board);
+  location.reason = detail::lack_of(seen, observations, board);
   if (!location.reason.empty()) return location;
   const std::vector<Pose> hypotheses = detail::hypotheses(seen.pairs, options.inlier_px);
   const auto fits = detail::settled_fits(seen.pairs, hypotheses, options.inlier_px);
