@@ -4,95 +4,26 @@
 #include <algorithm>
 #include <cmath>
 
+#include "edge_spots.hpp"
 #include "print_map.hpp"
 
 namespace vantage::detail {
 namespace {
 
-using Vector9d = Eigen::Matrix<double, 9, 1>;
 using Matrix9d = Eigen::Matrix<double, 9, 9>;
 
 constexpr int kMostRounds = 8;
 constexpr double kSettledPx = 0.002;  ///< a smaller step of the corners is the last one
-constexpr double kSpacingPx = 0.25;   ///< of light along an edge's normal
 constexpr double kSupport = 0.6;
 constexpr double kMaxSigmaPx = 0.5;
-constexpr double kDarkest = 0.02;     ///< fall of light that is an edge
 constexpr double kGrowthPx = 0.3;     ///< by which black is expected to grow or shrink
 constexpr double kSharpestPx = 0.03;  ///< no edge is known better than this: pixels are squares
-
-/// Bilinear, and the image's edge goes on forever.
-double light_at(const cv::Mat1f& light, const Eigen::Vector2d& p) {
-  const double u = std::clamp(p.x(), 0.0, light.cols - 1.001);
-  const double v = std::clamp(p.y(), 0.0, light.rows - 1.001);
-  const int column = int(u), row = int(v);
-  const double s = u - column, t = v - row;
-  const float* upper = light.ptr<float>(row) + column;
-  const float* lower = light.ptr<float>(row + 1) + column;
-  return (1 - t) * ((1 - s) * double(upper[0]) + s * double(upper[1])) +
-         t * ((1 - s) * double(lower[0]) + s * double(lower[1]));
-}
-
-/// How far inside of `p` white turns to black: the mean of the fall of light, weighted by itself. A
-/// blur does not move it. Nothing where light does not fall.
-std::optional<double> edge_offset(const cv::Mat1f& light, const Eigen::Vector2d& p,
-                                  const Eigen::Vector2d& inwards, double reach) {
-  const int steps = int(std::ceil(reach / kSpacingPx));
-  const double step = reach / steps;
-  const double first = light_at(light, p - reach * inwards);
-  double before = first, moment = 0;
-  for (int i = -steps; i < steps; ++i) {
-    const double after = light_at(light, p + (i + 1) * step * inwards);
-    moment += (before - after) * (i + 0.5) * step;
-    before = after;
-  }
-  const double fall = first - before;
-  if (fall < kDarkest) return std::nullopt;
-  const double offset = moment / fall;
-  if (std::abs(offset) > 0.9 * reach) return std::nullopt;
-  return offset;
-}
-
-/// One place on an edge. Its residual is linear in the map's entries and in black's growth.
-struct EdgeSpot {
-  Vector9d slope;      ///< of the residual, by eight entries and the growth
-  double offset = 0;   ///< pixels that the edge lies further in than the map says
-  double weight = 0;   ///< pixels of edge that it stands for
-  bool found = false;  ///< whether there is an edge
-};
-
-/// Looks for one edge at a spacing of about a pixel, away from its ends: corners are round.
-void measure(const cv::Mat1f& light, const PrintMap& map, const MarkerEdge& edge, double cell,
-             std::vector<EdgeSpot>& spots) {
-  const Eigen::Vector2d tangent = edge.to - edge.from, inwards(-tangent.y(), tangent.x());
-  const double length = (map.slope((edge.from + edge.to) / 2) * tangent).norm();
-  const int count = std::clamp(int(std::lround(0.6 * length)), 2, 12);
-  for (int k = 0; k < count; ++k) {
-    const Eigen::Vector2d print = edge.from + (0.2 + 0.6 * (k + 0.5) / count) * tangent;
-    const auto pixel = map.at(print);
-    if (!pixel) continue;
-    const Eigen::Matrix2d slope = map.slope(print);
-    const Eigen::Vector2d along = (slope * tangent).normalized(), normal(-along.y(), along.x());
-    // Within the cells on both sides. The white around a marker may be less than a cell wide.
-    const double reach =
-        std::clamp(0.4 * cell * normal.dot(slope * inwards.normalized()), 1.2, 4.0);
-    EdgeSpot spot;
-    spot.weight = 0.6 * length / count;
-    spot.slope << map.slope_by_entries(print).transpose() * normal, -1;
-    if (const auto offset = edge_offset(light, *pixel, normal, reach)) {
-      spot.offset = *offset;
-      spot.found = true;
-    }
-    spots.push_back(spot);
-  }
-}
 
 /// Normal equations' solution with its information.
 struct Step {
   Vector9d by = Vector9d::Zero();
   Matrix9d information = Matrix9d::Zero();  ///< for edges of one pixel's standard deviation
   double sigma = 0;                         ///< of an edge, pixels
-  double support = 0;
 };
 
 double residual(const EdgeSpot& spot, const Vector9d& by) {
@@ -156,13 +87,6 @@ double corner_sigma(const PrintMap& map, const Step& step) {
   return std::sqrt(sum / 8);
 }
 
-std::vector<EdgeSpot> measure_all(const cv::Mat1f& light, const PrintMap& map,
-                                  const std::vector<MarkerEdge>& edges, int cells) {
-  std::vector<EdgeSpot> spots;
-  for (const MarkerEdge& edge : edges) measure(light, map, edge, 2.0 / cells, spots);
-  return spots;
-}
-
 /// How far the corner that moves most would move, pixels.
 double corner_motion(const PrintMap& map, const Vector9d& by) {
   double most = 0;
@@ -189,7 +113,7 @@ std::optional<RefinedCorners> refine_corners(const cv::Mat1f& light,
   Step step;
   RefinedCorners refined;
   for (int round = 0; round < kMostRounds; ++round) {
-    const auto spots = measure_all(light, *map, edges, cells);
+    const auto spots = edge_spots(light, *map, edges, cells);
     step = solve(spots);
     if (!step.by.allFinite()) return std::nullopt;
     refined.support = support(spots, step);
