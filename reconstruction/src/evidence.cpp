@@ -13,10 +13,10 @@ namespace {
 constexpr int kMostSteps = 25;
 constexpr double kTurnSigmaRad = 10;  // a measured pose says nothing of turns around a symmetry
 
-Eigen::Matrix3d rotation_of(const Eigen::Vector3d& vector) {
+Eigen::Quaterniond rotation_of(const Eigen::Vector3d& vector) {
   const double angle = vector.norm();
-  if (angle < 1e-300) return Eigen::Matrix3d::Identity();
-  return Eigen::AngleAxisd(angle, vector / angle).toRotationMatrix();
+  if (angle < 1e-300) return Eigen::Quaterniond::Identity();
+  return Eigen::Quaterniond(Eigen::AngleAxisd(angle, vector / angle));
 }
 
 /// The standard deviation, per coordinate, by which the error of its camera's pose moves a point.
@@ -131,8 +131,8 @@ Eigen::Vector3d rotation_vector(const Eigen::Matrix3d& rotation) {
 }
 
 Pose moved(const Pose& pose, const Vector6d& step) {
-  return Pose::from_rotation(rotation_of(step.tail<3>()) * pose.rotation(),
-                             pose.translation() + step.head<3>());
+  return Pose::from_quaternion(rotation_of(step.tail<3>()) * pose.quaternion(),
+                               pose.translation() + step.head<3>());
 }
 
 Evidence evidence_of(const Reading& reading, const Pose& T_world_object, double least_sigma_px) {
