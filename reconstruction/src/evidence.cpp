@@ -135,7 +135,8 @@ Pose moved(const Pose& pose, const Vector6d& step) {
                                pose.translation() + step.head<3>());
 }
 
-Evidence evidence_of(const Reading& reading, const Pose& T_world_object, double least_sigma_px) {
+Evidence evidence_of(const Reading& reading, const Pose& T_world_object, double least_sigma_px,
+                     std::size_t most_points) {
   if (const SeenPose* seen = reading.sighting->pose()) {
     return evidence_of_pose(reading, *seen, T_world_object);
   }
@@ -147,7 +148,8 @@ Evidence evidence_of(const Reading& reading, const Pose& T_world_object, double 
           : 0;
   const double sigma = std::hypot(own, camera);
   Evidence evidence;
-  for (std::size_t i = 0; i < reading.points_m.size() && evidence.in_front; ++i) {
+  const std::size_t count = std::min(reading.points_m.size(), most_points);
+  for (std::size_t i = 0; i < count && evidence.in_front; ++i) {
     add_point(*reading.sighting, T_world_object, reading.points_m[i], seen.pixels[i],
               1 / (sigma * sigma), evidence);
   }

@@ -38,11 +38,15 @@ struct Evidence {
   double rms_px() const;
 };
 
+inline constexpr std::size_t kAllPoints = std::size_t(-1);
+
 /// @param least_sigma_px is used for corners that claim to be more precise: what a hypothesis may
 /// be off by, beside the corners' noise. With it, half of what the camera's own covariance moves
 /// the corners by comes in too, so that a bound of six times `least_sigma_px` lets three standard
 /// deviations of it pass. 0: the corners' noise alone.
-Evidence evidence_of(const Reading& reading, const Pose& T_world_object, double least_sigma_px);
+/// @param most_points leaves out the points behind the first ones.
+Evidence evidence_of(const Reading& reading, const Pose& T_world_object, double least_sigma_px,
+                     std::size_t most_points = kAllPoints);
 
 /// `pose` moved by (t, r) as Matrix6d has it.
 Pose moved(const Pose& pose, const Vector6d& step);

@@ -16,21 +16,38 @@ struct Offer {
   bool expected = false;  ///< it is where the pose, which is sure of the place, has it
 };
 
-/// The pose so far has the information H. Adding the reading raises chi-square by
-/// c - bᵀ (H + A)⁻¹ b, to first order, which is its squared Mahalanobis distance; the determinants
-/// are the density of what was predicted.
+/// How much an explanation with the information H has to bend for more evidence: by first order,
+/// chi-square rises by c - bᵀ (H + A)⁻¹ b, the squared Mahalanobis distance of what is seen from
+/// what was predicted.
+struct Bending {
+  Eigen::LLT<Matrix6d> both;
+  double distance;
+
+  Bending(const Matrix6d& information, const Evidence& e)
+      : both(Matrix6d(information + e.information)),
+        distance(e.chi_square - e.slope.dot(both.solve(e.slope))) {}
+
+  double log_determinant() const { return 2 * both.matrixLLT().diagonal().array().log().sum(); }
+};
+
+/// The determinants are the density of what was predicted.
 std::optional<Offer> offer_of(const Reading& reading, const Explanation& so_far,
                               const Eigen::LLT<Matrix6d>& known, double log_known,
                               const Bounds& bounds) {
-  const Evidence e = evidence_of(reading, so_far.T_world_object, bounds.least_sigma_px());
-  if (!e.in_front) return std::nullopt;
-  const Eigen::LLT<Matrix6d> both(Matrix6d(so_far.sum.information + e.information));
-  const double distance = e.chi_square - e.slope.dot(both.solve(e.slope));
+  const Matrix6d& information = so_far.sum.information;
   const double limit = bounds.largest_chi_square(reading);
-  if (!(distance <= limit)) return std::nullopt;
-  const double log_both = 2 * both.matrixLLT().diagonal().array().log().sum();
+  const auto evidence = [&](std::size_t most_points) {
+    return evidence_of(reading, so_far.T_world_object, bounds.least_sigma_px(), most_points);
+  };
+  // One point is never farther off than all of them; of most readings this is enough to know.
+  const Evidence first = evidence(1);
+  if (!first.in_front || !(Bending(information, first).distance <= limit)) return std::nullopt;
+  const Evidence e = evidence(kAllPoints);
+  if (!e.in_front) return std::nullopt;
+  const Bending bending(information, e);
+  if (!(bending.distance <= limit)) return std::nullopt;
   const double vagueness = known.solve(e.information).trace();
-  return Offer{&reading, distance + log_both - log_known,
+  return Offer{&reading, bending.distance + bending.log_determinant() - log_known,
                e.chi_square <= limit && vagueness <= limit};
 }
 
