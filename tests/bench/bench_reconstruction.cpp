@@ -92,10 +92,8 @@ int main(int argc, char** argv) {
   add("castle/svd", vantage::reconstruct_svd, castle);
   add("castle/pnp", vantage::reconstruct_pnp, castle);
   add("castle/voting", vantage::reconstruct_voting, castle);
-  add("castle/voting", vantage::reconstruct_voting, castle);
   add("clutter/svd", vantage::reconstruct_svd, clutter);
   add("clutter/pnp", vantage::reconstruct_pnp, clutter);
-  add("clutter/voting", vantage::reconstruct_voting, clutter);
   add("clutter/voting", vantage::reconstruct_voting, clutter);
   benchmark::RunSpecifiedBenchmarks();
   benchmark::Shutdown();
