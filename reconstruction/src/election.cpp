@@ -15,6 +15,7 @@ namespace {
 constexpr double kSurfaceM = 0.002;    // what a mesh and a label's place may be off by
 constexpr double kWrongId = 0.05;      // the share of observations that are none
 constexpr std::size_t kMostWays = 12;  // of one object
+constexpr double kLate = 1e6;          // comes after every height of the table
 constexpr std::size_t kFirm = 3;       // sightings that are no coincidence
 
 /// How far a pose that was fitted to these sums may be off.
@@ -120,17 +121,17 @@ std::optional<Elected> Election::next() {
     queue_.pop_back();
     if (!poll_->open(top.vote)) continue;
     const double now = height(top.vote);
-    if (now < top.height) {  // others were withdrawn since
-      queue_.push_back({now, top.vote});
-      std::push_heap(queue_.begin(), queue_.end());
+    if (!deferred_[top.vote] && now < top.height) {  // others were withdrawn since
+      put_back({now, top.vote});
       continue;
     }
-    if (auto elected = elected_around(top.vote)) return elected;
+    if (auto elected = elected_around(top)) return elected;
   }
   return std::nullopt;
 }
 
-std::optional<Elected> Election::elected_around(std::size_t vote) {
+std::optional<Elected> Election::elected_around(const Entry& entry) {
+  const std::size_t vote = entry.vote;
   auto first = way_from(vote);
   if (!first) {
     drop(vote, "no pose of an object explains it");
@@ -139,7 +140,7 @@ std::optional<Elected> Election::elected_around(std::size_t vote) {
   const Explanation start = first->explanation;
   auto elected = weighed(ways(std::move(*first)));
   if (elected && !taken(elected->candidate.best())) {
-    if (defer(vote, elected->net)) return std::nullopt;
+    if (defer(entry, elected->net)) return std::nullopt;
     accept(*elected);
     return elected;
   }
@@ -151,26 +152,40 @@ std::optional<Elected> Election::elected_around(std::size_t vote) {
   return std::nullopt;
 }
 
-/// Puts off, once, what has turned out to have fewer votes than something else may have.
-bool Election::defer(std::size_t vote, double net) {
-  if (deferred_[vote] || queue_.empty() || net >= queue_.front().height) return false;
-  deferred_[vote] = true;
-  queue_.push_back({net, vote});
+void Election::put_back(const Entry& entry) {
+  queue_.push_back(entry);
   std::push_heap(queue_.begin(), queue_.end());
+}
+
+/// Puts off what few votes are for until all that more votes are for is found, and again if it has
+/// fewer now than it had then: vague votes stand lower in the table than precise ones, although
+/// more of them may agree.
+bool Election::defer(const Entry& entry, double net) {
+  if (net >= double(kFirm) || (deferred_[entry.vote] && net - kLate >= entry.height)) return false;
+  deferred_[entry.vote] = true;
+  put_back({net - kLate, entry.vote});
   return true;
 }
 
+/// What the cluster around the vote explains; if that is little, what the vote alone leads to.
 std::optional<Way> Election::way_from(std::size_t vote) {
   const Cluster cluster = poll_->cluster_around(vote);
-  const auto start = trimmed(cluster.readings, cluster.T_world_object, bounds_);
+  auto best = grown(trimmed(cluster.readings, cluster.T_world_object, bounds_));
+  if (!best || best->readings.size() < kFirm) {
+    const Vote& alone = poll_->vote(vote);
+    auto other = grown(explain(alone.readings, alone.T_world_object, bounds_));
+    if (other && (!best || best->score(bounds_) < other->score(bounds_))) best = std::move(other);
+  }
+  if (!best || best->sum.points < kFewestPoints) return std::nullopt;
+  Verdict verdict = witnesses_->verdict(*best->type(), best->T_world_object,
+                                        slack_of(*best, options_.merge_m), free_);
+  return Way{std::move(*best), std::move(verdict)};
+}
+
+std::optional<Explanation> Election::grown(const std::optional<Explanation>& start) const {
   if (!start) return std::nullopt;
-  const ObjectType& type = *start->type();
-  auto grown =
-      grow(start->readings, start->T_world_object, pool(type, start->T_world_object), bounds_);
-  if (!grown || grown->sum.points < kFewestPoints) return std::nullopt;
-  Verdict verdict =
-      witnesses_->verdict(type, grown->T_world_object, slack_of(*grown, options_.merge_m), free_);
-  return Way{std::move(*grown), std::move(verdict)};
+  return grow(start->readings, start->T_world_object, pool(*start->type(), start->T_world_object),
+              bounds_);
 }
 
 /// Readings that the object may have: those whose first point, or whose frame, is as near to the

@@ -55,9 +55,11 @@ class Election {
 
   double height(std::size_t vote) const;
   void rank_votes();
-  std::optional<Elected> elected_around(std::size_t vote);
-  bool defer(std::size_t vote, double net);
+  std::optional<Elected> elected_around(const Entry& entry);
+  void put_back(const Entry& entry);
+  bool defer(const Entry& entry, double net);
   std::optional<Way> way_from(std::size_t vote);
+  std::optional<Explanation> grown(const std::optional<Explanation>& start) const;
   std::vector<const Reading*> pool(const ObjectType& type, const Pose& T_world_object) const;
   std::vector<Way> ways(Way first);
   bool worth_trying(std::size_t vote, const std::vector<std::size_t>& sightings,
@@ -73,10 +75,10 @@ class Election {
   Bounds bounds_;
   std::unique_ptr<Witnesses> witnesses_;
   std::unique_ptr<Poll> poll_;
-  std::vector<double> said_;  // of each vote: labels for it, less what is against it
-  std::vector<bool> deferred_;
-  std::vector<Entry> queue_;  // a heap
-  std::vector<bool> free_;    // of each sighting: no object has it
+  std::vector<double> said_;    // of each vote: labels for it, less what is against it
+  std::vector<bool> deferred_;  // of each vote: by what it explains, not by its height
+  std::vector<Entry> queue_;    // a heap
+  std::vector<bool> free_;      // of each sighting: no object has it
   std::vector<std::string> reasons_;
   std::map<const ObjectType*, std::vector<const Reading*>> readings_of_;  // never walked
   std::vector<std::pair<const ObjectType*, Pose>> objects_;
