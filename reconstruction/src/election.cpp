@@ -3,45 +3,11 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
-
-#include "pose_fit.hpp"
-#include "symmetry.hpp"
 
 namespace vantage::detail {
 namespace {
 
-constexpr double kSurfaceM = 0.002;    // what a mesh and a label's place may be off by
-constexpr double kWrongId = 0.05;      // the share of observations that are none
-constexpr std::size_t kMostWays = 12;  // of one object
-constexpr double kLate = 1e6;          // comes after every height of the table
-constexpr std::size_t kFirm = 3;       // sightings that are no coincidence
-
-/// How far a pose that was fitted to these sums may be off.
-double slack_of(const Explanation& explanation, double most) {
-  const Matrix6d covariance = covariance_of(explanation.sum.information);
-  return std::min(kSurfaceM + std::sqrt(covariance.topLeftCorner<3, 3>().trace()), most);
-}
-
-std::size_t common(const Explanation& a, const Explanation& b) {
-  std::size_t count = 0;
-  for (const Reading* reading : a.readings) {
-    count += std::any_of(b.readings.begin(), b.readings.end(),
-                         [&](const Reading* other) { return other->number == reading->number; });
-  }
-  return count;
-}
-
-/// What the fit says against a way: chi-square above what noise makes of it, less what a sighting
-/// that it explains is worth, as it needs no wrong id to explain it.
-double cost_of(const FinalFit& fit, double scale) {
-  double cost = 0;
-  for (const Evidence& evidence : fit.explanation.each) {
-    cost += (evidence.chi_square - 2 * evidence.points) / scale + 2 * std::log(kWrongId);
-  }
-  return cost;
-}
+constexpr double kLate = 1e6;  // comes after every height of the table
 
 /// Of the feature; object's frame.
 Eigen::Vector3d middle_of(const Reading& reading) {
@@ -49,32 +15,6 @@ Eigen::Vector3d middle_of(const Reading& reading) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   for (const Eigen::Vector3d& point : reading.points_m) sum += point;
   return sum / double(reading.points_m.size());
-}
-
-bool same(const Way& a, const Way& b) {
-  return a.explanation.type() == b.explanation.type() &&
-         equivalent(*a.explanation.type(), a.explanation.T_world_object,
-                    b.explanation.T_world_object);
-}
-
-/// Fits a pose to a cluster, leaving out, one by one, what does not go with the rest.
-std::optional<Explanation> trimmed(std::vector<const Reading*> readings, const Pose& start,
-                                   const Bounds& bounds) {
-  while (!readings.empty()) {
-    const auto refined = refine(readings, start, bounds.least_sigma_px());
-    if (!refined) return std::nullopt;
-    double worst = 1;
-    std::size_t out = readings.size();
-    for (std::size_t i = 0; i < readings.size(); ++i) {
-      const double part = refined->each[i].chi_square / bounds.largest_chi_square(*readings[i]);
-      if (part <= worst) continue;
-      worst = part;
-      out = i;
-    }
-    if (out == readings.size()) return explain(readings, refined->T_world_object, bounds);
-    readings.erase(readings.begin() + std::ptrdiff_t(out));
-  }
-  return std::nullopt;
 }
 
 }  // namespace
@@ -138,7 +78,7 @@ std::optional<Elected> Election::elected_around(const Entry& entry) {
     return std::nullopt;
   }
   const Explanation start = first->explanation;
-  auto elected = weighed(ways(std::move(*first)));
+  auto elected = weighed(ways(std::move(*first)), options_.least_evidence);
   if (elected && !taken(elected->candidate.best())) {
     if (defer(entry, elected->net)) return std::nullopt;
     accept(*elected);
@@ -165,143 +105,6 @@ bool Election::defer(const Entry& entry, double net) {
   deferred_[entry.vote] = true;
   put_back({net - kLate, entry.vote});
   return true;
-}
-
-/// What the cluster around the vote explains; if that is little, what the vote alone leads to.
-std::optional<Way> Election::way_from(std::size_t vote) {
-  const Cluster cluster = poll_->cluster_around(vote);
-  auto best = grown(trimmed(cluster.readings, cluster.T_world_object, bounds_));
-  if (!best || best->readings.size() < kFirm) {
-    const Vote& alone = poll_->vote(vote);
-    auto other = grown(explain(alone.readings, alone.T_world_object, bounds_));
-    if (other && (!best || best->score(bounds_) < other->score(bounds_))) best = std::move(other);
-  }
-  if (!best || best->sum.points < kFewestPoints) return std::nullopt;
-  Verdict verdict = witnesses_->verdict(*best->type(), best->T_world_object,
-                                        slack_of(*best, options_.merge_m), free_);
-  return Way{std::move(*best), std::move(verdict)};
-}
-
-std::optional<Explanation> Election::grown(const std::optional<Explanation>& start) const {
-  if (!start) return std::nullopt;
-  return grow(start->readings, start->T_world_object, pool(*start->type(), start->T_world_object),
-              bounds_);
-}
-
-/// Readings that the object may have: those whose first point, or whose frame, is as near to the
-/// object's middle as its body reaches.
-std::vector<const Reading*> Election::pool(const ObjectType& type,
-                                           const Pose& T_world_object) const {
-  const TypeBody& body = witnesses_->body(type);
-  const Eigen::Vector3d centre = T_world_object * body.centre();
-  std::vector<const Reading*> near;
-  for (const Reading* reading : readings_of_.at(&type)) {
-    if (!free_[reading->number]) continue;
-    const Sighting& sighting = *reading->sighting;
-    const Eigen::Vector3d p = sighting.T_cam_world * centre;
-    const double reach = 1.5 * body.radius_m() + options_.merge_m;
-    if (const SeenPoints* seen = sighting.points()) {
-      const Intrinsics& k = sighting.view->lens.intrinsics();
-      if (p.z() < 2 * reach) {  // so near that pixels say little
-        near.push_back(reading);
-        continue;
-      }
-      const double reach_px = std::max(k.fx, k.fy) * reach / (p.z() - reach) + options_.inlier_px;
-      const Eigen::Vector2d away = sighting.view->lens.project(p) - seen->pixels.front();
-      if (away.norm() <= 1.5 * reach_px) near.push_back(reading);
-    } else if ((sighting.pose()->T_cam_feature.translation() - p).norm() <=
-               2 * reach + 3 * sighting.pose()->sigma_m +
-                   reading->T_object_feature.translation().norm()) {
-      near.push_back(reading);
-    }
-  }
-  return near;
-}
-
-bool Election::worth_trying(std::size_t vote, const std::vector<std::size_t>& sightings,
-                            const std::vector<Way>& ways) const {
-  if (!poll_->open(vote)) return false;
-  const Explanation& first = ways.front().explanation;
-  if (first.readings.size() < kFirm) return true;
-  for (const Way& way : ways) {
-    const Explanation& known = way.explanation;
-    if (poll_->may_be(vote, *known.type(), known.T_world_object)) return false;
-  }
-  // Others have to be for it, too.
-  const Vote& candidate = poll_->vote(vote);
-  std::size_t agree = 0;
-  for (const std::size_t sighting : sightings) {
-    const auto& votes = poll_->votes_of(sighting);
-    agree += std::any_of(votes.begin(), votes.end(), [&](std::size_t other) {
-      return poll_->may_be(other, *candidate.type(), candidate.T_world_object);
-    });
-  }
-  return 2 * agree >= sightings.size();
-}
-
-std::vector<Way> Election::ways(Way first) {
-  std::vector<std::size_t> sightings;
-  for (const Reading* reading : first.explanation.readings) sightings.push_back(reading->number);
-  std::vector<Way> ways;
-  ways.push_back(std::move(first));
-  for (const std::size_t sighting : sightings) {
-    for (const std::size_t vote : poll_->votes_of(sighting)) {
-      if (ways.size() >= kMostWays || !worth_trying(vote, sightings, ways)) continue;
-      auto way = way_from(vote);
-      if (!way) continue;
-      const std::size_t shared = common(way->explanation, ways.front().explanation);
-      const bool of_the_same = 2 * shared >= way->explanation.readings.size() &&
-                               2 * shared >= ways.front().explanation.readings.size();
-      const bool known = std::any_of(ways.begin(), ways.end(),
-                                     [&](const Way& other) { return same(*way, other); });
-      if (of_the_same && !known) ways.push_back(std::move(*way));
-    }
-  }
-  return ways;
-}
-
-/// Normalised votes, times the likelihoods of what was measured, chi-square over its ratio to the
-/// degrees of freedom where that is above 1. What is against the best way is for none of them. Ways
-/// that fit worse by more than the evidence that decides are left out, and so are those with no
-/// more votes for than against them. Nothing if none is left.
-std::optional<Elected> Election::weighed(std::vector<Way> ways) const {
-  std::vector<double> nets, costs;
-  std::vector<FinalFit> fits;
-  double scale = std::numeric_limits<double>::infinity();
-  for (Way& way : ways) {
-    nets.push_back(way.net());
-    fits.push_back(fit_finally(std::move(way.explanation)));
-    const double ratio = fits.back().chi_square / std::max(1, fits.back().degrees_of_freedom);
-    scale = std::min(scale, std::max(1.0, ratio));
-  }
-  for (const FinalFit& fit : fits) costs.push_back(cost_of(fit, scale));
-  const double least = *std::min_element(costs.begin(), costs.end());
-  const bool tie = *std::max_element(nets.begin(), nets.end()) == 0;
-  std::vector<std::pair<double, std::size_t>> shares;
-  for (std::size_t i = 0; i < ways.size(); ++i) {
-    const double votes = tie && nets[i] == 0 ? 1 : nets[i];
-    if (costs[i] - least > options_.least_evidence || votes <= 0) continue;
-    shares.emplace_back(-votes * std::exp(-0.5 * (costs[i] - least)), i);
-  }
-  if (shares.empty()) return std::nullopt;
-  std::sort(shares.begin(), shares.end());  // the largest first, of equals the first
-  const Explanation best = fits[shares.front().second].explanation;
-  std::erase_if(shares, [&](const auto& share) {
-    return common(best, fits[share.second].explanation) < best.readings.size();
-  });
-  double sum = 0;
-  for (const auto& [share, i] : shares) sum -= share;
-  Elected elected;
-  for (const auto& [share, i] : shares) {
-    elected.candidate.ways.push_back(std::move(fits[i]));
-    elected.candidate.shares.push_back(-share / sum);
-    elected.verdicts.push_back(std::move(ways[i].verdict));
-  }
-  const double against = double(elected.verdicts.front().against);
-  elected.net = nets[shares.front().second];
-  const double in_favour = elected.net + against;
-  elected.candidate.there = in_favour / (in_favour + against);
-  return elected;
 }
 
 void Election::drop(std::size_t vote, const std::string& reason) {

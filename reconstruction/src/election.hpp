@@ -30,6 +30,20 @@ struct Elected {
   double net = 0;                 ///< votes for the best way, less those against it
 };
 
+/// Sightings that are no coincidence.
+inline constexpr std::size_t kFirm = 3;
+
+/// How many sightings both explain.
+std::size_t common(const Explanation& a, const Explanation& b);
+
+/// Shares are normalised votes, times the likelihoods of what was measured: exp(-χ²/2), χ² over its
+/// ratio to the degrees of freedom where that is above 1; a sighting that only one of two explains
+/// is a wrong id (one in twenty) for the other. What is against the best way makes it doubtful
+/// altogether. Ways that fit worse by more than `least_evidence` are left out, and so are those
+/// with no more votes for than against them (unless it is a tie for all), and those that do not
+/// explain all that the best one does. Nothing if none is left.
+std::optional<Elected> weighed(std::vector<Way> ways, double least_evidence);
+
 /// Takes objects out of the table of votes, the one with most votes first; what it explains has no
 /// other votes from then on. Not thread-safe.
 class Election {
@@ -41,8 +55,6 @@ class Election {
 
   /// Why a sighting is of no object that was taken out; to be asked in the end.
   std::string reason_against(std::size_t sighting) const;
-
-  const Poll& poll() const { return *poll_; }
 
  private:
   struct Entry {
@@ -64,7 +76,6 @@ class Election {
   std::vector<Way> ways(Way first);
   bool worth_trying(std::size_t vote, const std::vector<std::size_t>& sightings,
                     const std::vector<Way>& ways) const;
-  std::optional<Elected> weighed(std::vector<Way> ways) const;
   void drop(std::size_t vote, const std::string& reason);
   void drop_votes_for(const Explanation& explanation, const std::string& reason);
   bool taken(const Explanation& explanation) const;

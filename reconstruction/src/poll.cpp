@@ -141,13 +141,4 @@ bool Poll::may_be(std::size_t i, const ObjectType& type, const Pose& T_world_obj
   return squared_distance(vote.T_world_object, vote.covariance, pose, floor_of()) <= kNear;
 }
 
-std::size_t Poll::bytes() const {
-  std::size_t bytes = table_.bytes() + votes_.capacity() * sizeof(Vote);
-  for (const Vote& vote : votes_) bytes += vote.readings.capacity() * sizeof(const Reading*);
-  for (const auto& votes : of_sighting_) {
-    bytes += sizeof(votes) + 2 * votes.capacity() * sizeof(std::size_t);
-  }
-  return bytes;
-}
-
 }  // namespace vantage::detail

@@ -40,9 +40,6 @@ class Poll {
   /// Whether the vote may be for this object; the pose is taken as certain.
   bool may_be(std::size_t i, const ObjectType& type, const Pose& T_world_object) const;
 
-  std::size_t cell_count() const { return table_.cell_count(); }
-  std::size_t bytes() const;
-
  private:
   void enter(const Vote& vote, std::int64_t sign);
   std::vector<std::pair<double, std::size_t>> near(std::size_t i) const;

@@ -14,6 +14,8 @@
 
 namespace vantage::test {
 
+inline const Eigen::Vector3d kCube(0.05, 0.05, 0.05);
+
 inline std::vector<CameraView> aimed(const std::vector<Eigen::Vector3d>& eyes,
                                      const Eigen::Vector3d& target = {0, 0, 0}) {
   std::vector<CameraView> views;
