@@ -11,7 +11,7 @@ namespace vantage {
 namespace {
 
 constexpr double kLeastVisible = 0.1;  // BOP's visib_gt_min
-constexpr double kDelta = VsdOptions().delta_m;
+constexpr double kDelta = 0.015;       // metres; BOP's for its challenge
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
 /// Recalled targets of one image: over all thresholds, and misalignments.

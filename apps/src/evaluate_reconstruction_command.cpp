@@ -121,9 +121,8 @@ ExitCode evaluate(const EvaluateArguments& arguments) {
   if (stop.stop_requested()) return ExitCode::cancelled;
 
   std::vector<fs::path> files = evaluation.files;
-  for (const auto* more : {&workcell.files, &scene.files}) {
-    files.insert(files.end(), more->begin(), more->end());
-  }
+  files.insert(files.end(), workcell.files.begin(), workcell.files.end());
+  files.insert(files.end(), scene.files.begin(), scene.files.end());
   Json json = evaluation_to_json(evaluation);
   json["config"] = config_json(arguments);
   json["inputs"] = inputs_json(std::move(files));
