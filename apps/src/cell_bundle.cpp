@@ -120,9 +120,12 @@ void write_out_random_objects(const Workcell& workcell, json& root) {
 
 }  // namespace
 
-void write_cell_bundle(const fs::path& file, const Workcell& workcell, const fs::path& folder) {
+void write_cell_bundle(const fs::path& file, const Workcell& workcell,
+                       const std::vector<std::string>& calibrations, const fs::path& folder) {
   json root = read_yaml(file).root;
   write_out_random_objects(workcell, root);
+  if (root.contains("sensor")) root["sensor"].erase("calibration");  // of another recording
+  if (!calibrations.empty()) root["sensor"]["calibration"] = calibrations;
   const fs::path from = file.parent_path();
   const std::string prefix = std::string(kCopies) + "/";
   Copies copies(folder / kCopies);

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
+#include <vector>
 
 #include "workcell.hpp"
 
@@ -12,8 +14,10 @@ namespace vantage {
 /// (JSON's form, which is YAML too.)
 /// @param file the workcell's file.
 /// @param workcell that file, loaded, with `place_random_objects` done.
+/// @param calibrations of the recording's cameras, in `folder`: one, one for each, or none at all.
 /// @throws Error as `read_yaml` and `write_file` do.
 void write_cell_bundle(const std::filesystem::path& file, const Workcell& workcell,
+                       const std::vector<std::string>& calibrations,
                        const std::filesystem::path& folder);
 
 }  // namespace vantage

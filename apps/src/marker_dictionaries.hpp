@@ -7,8 +7,8 @@
 
 namespace vantage {
 
-/// The dictionaries of the markers on the board and on the types of the knowledge base, which has
-/// one of each family.
+/// The dictionaries of the markers on the board and on the types of the knowledge base: of each
+/// family the largest, which has the markers of the others.
 std::vector<std::string> dictionaries_of(const Workcell& workcell);
 
 }  // namespace vantage

@@ -74,10 +74,11 @@ void detect(const BopScene& scene, const Workcell& workcell, ObservedScene& obse
             const StopToken& stop) {
   const std::vector<std::string> dictionaries = dictionaries_of(workcell);
   if (dictionaries.empty()) return;
-  const ArucoDetector detector(ArucoOptions{dictionaries});
   tbb::parallel_for(std::size_t(0), scene.images.size(), [&](std::size_t i) {
+    CameraView& view = observed.views[i];
     if (!scene.images[i].color.empty() && !stop.stop_requested()) {
-      observed.views[i].observations = detector.detect(read_color(scene.images[i].color));
+      const ArucoDetector detector({dictionaries, view.lens});
+      view.observations = detector.detect(read_color(scene.images[i].color));
     }
     stop.advance(1);
   });

@@ -95,8 +95,9 @@ ExitCode plan(const PlanArguments& arguments) {
   const auto start = StopToken::Clock::now();
   const RunOptions run = arguments.common.run(start);
   const Interrupt interrupt({run.stop, run.drawing});
-  PlanInput input =
-      Workers(arguments.common.threads).execute([&] { return load_plan_input(arguments.plan, run.stop); });
+  PlanInput input = Workers(arguments.common.threads).execute([&] {
+    return load_plan_input(arguments.plan, run.stop);
+  });
   for (const std::string& warning : input.warnings) spdlog::warn("{}", warning);
   input.record.config["deadline_ms"] = arguments.common.deadline_ms
                                            ? nlohmann::ordered_json(*arguments.common.deadline_ms)

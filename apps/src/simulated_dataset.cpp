@@ -73,23 +73,31 @@ void check_depth_range(const CellCamera& camera, double depth_scale_mm) {
                   std::ceil(far_m * kMm / 65535 * 100) / 100));
 }
 
-void write_calibrations(const std::vector<CellCamera>& cameras, const Distortion& distortion,
+void write_calibrations(const Workcell& workcell, const RecordingOptions& options,
                         const fs::path& folder) {
-  const Intrinsics& first = cameras.front().camera.intrinsics();
-  const bool all_alike = std::all_of(cameras.begin(), cameras.end(), [&](const CellCamera& c) {
-    return c.camera.intrinsics() == first;
-  });
-  if (all_alike) {
-    write_file(folder / "calibration.yml", calibration_yaml(first, distortion));
-    return;
-  }
-  for (std::size_t i = 0; i < cameras.size(); ++i) {
-    write_file(folder / fmt::format("calibration_{:06}.yml", i),
-               calibration_yaml(cameras[i].camera.intrinsics(), distortion));
+  const std::vector<std::string> names = calibration_names(workcell, options);
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    write_file(folder / names[i],
+               calibration_yaml(workcell.cameras[i].camera.intrinsics(), options.color.distortion));
   }
 }
 
 }  // namespace
+
+std::vector<std::string> calibration_names(const Workcell& workcell,
+                                           const RecordingOptions& options) {
+  if (options.color.distortion.none() || workcell.cameras.empty()) return {};
+  const Intrinsics& first = workcell.cameras.front().camera.intrinsics();
+  const bool all_alike =
+      std::all_of(workcell.cameras.begin(), workcell.cameras.end(),
+                  [&](const CellCamera& c) { return c.camera.intrinsics() == first; });
+  if (all_alike) return {"calibration.yml"};
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < workcell.cameras.size(); ++i) {
+    names.push_back(fmt::format("calibration_{:06}.yml", i));
+  }
+  return names;
+}
 
 void check_recording(const Workcell& workcell, const RecordingOptions& options) {
   if (workcell.cameras.empty()) {
@@ -128,9 +136,7 @@ bool record(const Workcell& workcell, const SimulatedCell& cell, const Recording
     truth[std::to_string(i)] = truth_json(workcell, models, camera);
     stop.advance(1);
   }
-  if (!options.color.distortion.none()) {
-    write_calibrations(workcell.cameras, options.color.distortion, folder);
-  }
+  write_calibrations(workcell, options, folder);
   write_file(folder / "scene_gt.json", truth.dump(1) + "\n");
   write_file(folder / "scene_camera.json", cameras.dump(1) + "\n");
   return true;

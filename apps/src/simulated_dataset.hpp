@@ -2,6 +2,8 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <string>
+#include <vector>
 
 #include "bop_models.hpp"
 #include "simulated_cell.hpp"
@@ -23,6 +25,11 @@ struct RecordingOptions {
 /// @throws Error bad_input for a workcell without cameras, one whose depth range does not fit 16
 /// bits, and as `StereoSensor::check` and `Lens` do.
 void check_recording(const Workcell& workcell, const RecordingOptions& options);
+
+/// The calibration files that a recording gets: none without distortion, `calibration.yml` if all
+/// cameras are alike, else one for each.
+std::vector<std::string> calibration_names(const Workcell& workcell,
+                                           const RecordingOptions& options);
 
 /// Records the cell with all of its cameras as a BOP scene folder: `rgb/` and `depth/` with image i
 /// for the i-th camera, `models/`, `scene_gt.json` with the known objects, `scene_camera.json`; and

@@ -120,7 +120,7 @@ Json write_simulation_record(const fs::path& workcell_file, const Workcell& work
                     {"foreign_objects", workcell.foreign_objects.size()},
                     {"true_volumes_m3", true_volumes_json(workcell, cell)},
                     {"inputs", inputs}};
-  write_cell_bundle(workcell_file, workcell, folder);
+  write_cell_bundle(workcell_file, workcell, calibration_names(workcell, recording), folder);
   write_file(folder / kRecordName, record.dump(1) + "\n");
   return record;
 }

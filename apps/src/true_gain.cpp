@@ -7,10 +7,10 @@
 #include "documents/document_value.hpp"
 #include "documents/schema_check.hpp"
 #include "documents/schemas.hpp"
-#include "simulated_cell.hpp"
-#include "simulator/ground_truth.hpp"
 #include "documents/value_readers.hpp"
 #include "documents/yaml_document.hpp"
+#include "simulated_cell.hpp"
+#include "simulator/ground_truth.hpp"
 
 namespace vantage {
 namespace {

@@ -44,7 +44,7 @@ TEST_CASE("a bundled cell is the same where it was moved to, without the files t
     const fs::path file = write_cell(source);
     Workcell loaded = load_workcell(file);
     place_random_objects(loaded);
-    write_cell_bundle(file, loaded, folder.path());
+    write_cell_bundle(file, loaded, {}, folder.path());
     return loaded;
   }();
   fs::copy(folder.path(), other / "moved", fs::copy_options::recursive);

@@ -10,11 +10,12 @@
 #include "support/marker_tally.hpp"
 #include "support/scene_count.hpp"
 
+#include "support/test_data.hpp"
+
 namespace vantage::test {
 namespace {
 
-const std::filesystem::path kShipped =
-    std::filesystem::path(__FILE__).parent_path() / "../../assets/workcells";
+const std::filesystem::path kShipped = test::assets() / "workcells";
 
 struct PlacedMarker {
   Marker marker;

@@ -10,13 +10,15 @@
 #include "simulator/collision.hpp"
 #include "support/scene_count.hpp"
 
+#include "support/test_data.hpp"
+
 namespace vantage::test {
 namespace {
 
 namespace fs = std::filesystem;
 using Names = std::set<std::string>;
 
-const fs::path kShipped = fs::path(__FILE__).parent_path() / "../../assets/workcells";
+const fs::path kShipped = test::assets() / "workcells";
 
 Workcell shipped(const std::string& name) {
   Workcell cell = load_workcell(kShipped / (name + ".yaml"));

@@ -5,16 +5,16 @@
 #include <string>
 
 #include "documents/schemas.hpp"
+#include "documents/yaml_document.hpp"
 #include "support/expect_error.hpp"
 #include "support/test_data.hpp"
-#include "documents/yaml_document.hpp"
 
 namespace vantage::test {
 namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path kShipped = fs::path(__FILE__).parent_path() / "../../assets/workcells";
+const fs::path kShipped = test::assets() / "workcells";
 constexpr std::string_view kArea = "work_area: {min_m: [-1, -2, 0], max_m: [1, 2, 0.5]}\n";
 constexpr std::string_view kStl =
     "solid t\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1000 0 0\nvertex 0 1000 0\n"

@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path kAssets = fs::path(__FILE__).parent_path() / "../../assets";
+const fs::path kAssets = test::assets();
 constexpr std::string_view kArea = "work_area: {min_m: [-1, -2, 0], max_m: [1, 2, 0.5]}\n";
 constexpr std::string_view kTypes =
     "object_types:\n"

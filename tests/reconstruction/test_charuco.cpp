@@ -21,8 +21,7 @@ using namespace vantage::test;
 
 namespace {
 
-const std::filesystem::path kAssets =
-    std::filesystem::path(__FILE__).parent_path() / "../../assets";
+const std::filesystem::path kAssets = test::assets();
 
 /// Where the printed pattern has its markers; independent of the assets. OpenCV's order until 4.5:
 /// row by row from above, in the second square of the first row.

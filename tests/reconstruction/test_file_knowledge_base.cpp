@@ -5,12 +5,14 @@
 
 #include "knowledge_file.hpp"
 
+#include "support/test_data.hpp"
+
 namespace vantage::test {
 namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path kShipped = fs::path(__FILE__).parent_path() / "../../assets/knowledge";
+const fs::path kShipped = test::assets() / "knowledge";
 
 Eigen::AlignedBox3d bounds_of(const TriangleMesh& mesh) {
   Eigen::AlignedBox3d bounds;

@@ -34,6 +34,10 @@ std::string read_text(const fs::path& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
+fs::path assets() {
+  return VANTAGE_ASSETS;
+}
+
 std::optional<fs::path> recording(std::string_view name) {
   const char* data = std::getenv("VANTAGE_DATA");
   const fs::path folder =

@@ -27,6 +27,9 @@ class TemporaryFolder {
 
 std::string read_text(const std::filesystem::path& path);
 
+/// The checkout's folder of shipped files.
+std::filesystem::path assets();
+
 /// The folder with the recording `name`, beside the checkout or in $VANTAGE_DATA; nothing, and a
 /// message that says that the test is skipped, where it is missing.
 std::optional<std::filesystem::path> recording(std::string_view name);

@@ -37,19 +37,21 @@ struct BopScene {
 /// Reads `scene_camera.json` and depth/%06d.png; of rgb/%06d.{png,jpg} only the size.
 ///
 /// `cam_K` is row-major in pixels; the pose is the inverse of (`cam_R_w2c`, `cam_t_w2c` in mm), or
-/// both are missing; a raw depth times `depth_scale` is in mm. The image's size is that of its depth, else of its
-/// colour, else the entry's `width` and `height`; whatever of these is there has to agree.
+/// both are missing; a raw depth times `depth_scale` is in mm. The image's size is that of its
+/// depth, else of its colour, else the entry's `width` and `height`; whatever of these is there has
+/// to agree.
 /// @param range of every camera: BOP does not store it.
 /// @param only_ids loads no other image; empty means all.
 /// @throws Error bad_input with the file, the image's id and the key: for files that are missing or
 /// damaged, keys that are missing or of the wrong type or length, half a camera pose, a matrix
-/// that is no rotation, intrinsics that do not fit the image, an id that is there twice or not at all.
+/// that is no rotation, intrinsics that do not fit the image, an id that is there twice or not at
+/// all.
 VANTAGE_API BopScene load_bop_scene(const std::filesystem::path& folder,
                                     const DepthRange& range = {},
                                     std::span<const int> only_ids = {});
 
-/// Photographs by one camera from several places: the PNG and JPEG files of a folder in the order of
-/// their names, with ids from 0; no poses, no depth.
+/// Photographs by one camera from several places: the PNG and JPEG files of a folder in the order
+/// of their names, with ids from 0; no poses, no depth.
 /// @param intrinsics of all of them.
 /// @throws Error bad_input for a folder without pictures, damaged ones, and those of another size.
 VANTAGE_API BopScene load_photographs(const std::filesystem::path& folder,
