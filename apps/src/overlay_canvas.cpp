@@ -10,7 +10,7 @@ namespace {
 constexpr int kFont = cv::FONT_HERSHEY_SIMPLEX;
 constexpr double kLetters = 0.5;
 constexpr int kShift = 4;  // OpenCV's fixed point: sixteenths of a pixel
-constexpr int kLine = 22, kMargin = 10;
+constexpr int kLine = 22, kMargin = 10, kAbove = 8;
 const cv::Scalar kPaper(250, 250, 249), kText(44, 48, 54);
 
 cv::Scalar color(const Ink& ink) {
@@ -65,8 +65,8 @@ void OverlayCanvas::tag(const Eigen::Vector2d& at, const std::string& text, cons
   int below = 0;
   const cv::Size size = cv::getTextSize(text, kFont, kLetters, 1, &below);
   const cv::Point anchor(int(scale_ * at.x()), int(scale_ * at.y()));
-  cv::Rect box(anchor.x - size.width / 2 - 5, anchor.y - size.height / 2 - 5, size.width + 10,
-               size.height + below + 8);
+  const int height = size.height + below + 8;
+  cv::Rect box(anchor.x - size.width / 2 - 5, anchor.y - height - kAbove, size.width + 10, height);
   const cv::Rect all(0, 0, picture_.cols, picture_.rows);
   const auto fits = [&](const cv::Rect& place) {
     return (place & all) == place &&
@@ -81,10 +81,8 @@ void OverlayCanvas::tag(const Eigen::Vector2d& at, const std::string& text, cons
   free &= all;
   if (free.empty()) return;
   tags_.push_back(free);
-  if (free != box) {
-    const cv::Point middle(free.x + free.width / 2, free.y + free.height / 2);
-    cv::line(picture_, anchor, middle, color(ink), 1, cv::LINE_AA);
-  }
+  const cv::Point middle(free.x + free.width / 2, free.y + free.height / 2);
+  cv::line(picture_, anchor, middle, color(ink), 1, cv::LINE_AA);
   cv::rectangle(picture_, free, kPaper, cv::FILLED);
   cv::rectangle(picture_, free, color(ink), 1);
   cv::putText(picture_, text, {free.x + 5, free.y + 5 + size.height}, kFont, kLetters, kText, 1,

@@ -25,7 +25,7 @@ class OverlayCanvas {
   void ring(const Eigen::Vector2d& centre, double radius_px, const Ink& ink, double width_px);
   void cross(const Eigen::Vector2d& centre, double radius_px, const Ink& ink, double width_px);
 
-  /// A name tag at a place that no other tag has, as near to `at` as can be, with a line to it.
+  /// A name tag above `at` or near it, at a place that no other tag has, with a line to it.
   void tag(const Eigen::Vector2d& at, const std::string& text, const Ink& ink);
 
   /// The picture with a strip below it for explanations, as many lines as there are.

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <optional>
 #include <set>
 
 #include "overlay_canvas.hpp"
@@ -64,23 +65,28 @@ struct Sheet {
   }
 };
 
-void draw_object(Sheet& sheet, const KnownObject& object, const Ink& ink,
-                 const std::vector<MeshEdge>& edges, const Scene& rays) {
+/// Draws what is seen of an object. @returns its highest point on the image, where its name goes:
+/// nothing if it is not seen.
+std::optional<Eigen::Vector2d> draw_object(Sheet& sheet, const KnownObject& object, const Ink& ink,
+                                           const std::vector<MeshEdge>& edges, const Scene& rays) {
+  const Intrinsics& k = sheet.view.lens.intrinsics();
+  std::optional<Eigen::Vector2d> top;
   for (const OutlinePiece& piece :
        outline(edges, object.T_world_object, sheet.view.lens, *sheet.view.T_world_cam, rays)) {
-    if (piece.visible) sheet.canvas.line(piece.from, piece.to, ink, 2);
+    if (!piece.visible) continue;
+    sheet.canvas.line(piece.from, piece.to, ink, 2);
+    const Eigen::Vector2d& p = piece.from;
+    const bool inside = p.x() > 0 && p.y() > 0 && p.x() < k.width && p.y() < k.height;
+    if (inside && (!top || p.y() < top->y())) top = p;
   }
+  return top;
 }
 
-void tag_object(Sheet& sheet, const KnownObject& object, const Ink& ink) {
-  const Eigen::Vector3d p_cam = sheet.in_camera(object.T_world_object.translation());
-  if (p_cam.z() < 1e-3) return;
-  const Eigen::Vector2d at = sheet.view.lens.project(p_cam);
-  const Intrinsics& k = sheet.view.lens.intrinsics();
-  if (at.x() < 0 || at.y() < 0 || at.x() > k.width || at.y() > k.height) return;
+void tag_object(Sheet& sheet, const KnownObject& object, const Eigen::Vector2d& top,
+                const Ink& ink) {
   const bool sure = object.probability > 0.995;
   sheet.canvas.tag(
-      at, sure ? object.name : fmt::format("{} {:.2f}?", object.name, object.probability), ink);
+      top, sure ? object.name : fmt::format("{} {:.2f}?", object.name, object.probability), ink);
 }
 
 std::string place_text(const BopImage& image, const CameraView& view,
@@ -134,10 +140,14 @@ ColorImage OverlayPainter::paint(std::size_t image) const {
   if (view.T_world_cam) {
     sheet.draw_axes();
     const auto ink = [](std::size_t i) { return kObjectInks[i % kObjectInks.size()]; };
+    std::vector<std::optional<Eigen::Vector2d>> tops;
     for (std::size_t i = 0; i < objects_.size(); ++i) {
-      draw_object(sheet, objects_[i], ink(i), edges_.at(objects_[i].mesh.get()), *rays_);
+      tops.push_back(
+          draw_object(sheet, objects_[i], ink(i), edges_.at(objects_[i].mesh.get()), *rays_));
     }
-    for (std::size_t i = 0; i < objects_.size(); ++i) tag_object(sheet, objects_[i], ink(i));
+    for (std::size_t i = 0; i < objects_.size(); ++i) {
+      if (tops[i]) tag_object(sheet, objects_[i], *tops[i], ink(i));
+    }
   }
   return sheet.canvas.finished(
       {place_text(scene_.images[image], view, location),

@@ -118,15 +118,19 @@ Json inputs_json(const std::vector<std::filesystem::path>& files) {
   return inputs;
 }
 
+/// Without the minus of a zero.
+std::string point_text(const Json& t) {
+  const auto at = [&](std::size_t i) { return rounded(t[i].get<double>(), 1e-4) + 0.0; };
+  return fmt::format("({:.4f}, {:.4f}, {:.4f}) m", at(0), at(1), at(2));
+}
+
 std::string camera_line(const Json& camera) {
   if (!camera["reason"].is_null()) {
     return fmt::format("  image {:<4} not located: {}\n", camera["image"].get<int>(),
                        camera["reason"].get<std::string>());
   }
-  const Json& t = camera["T_world_cam"]["translation_m"];
-  std::string line =
-      fmt::format("  image {:<4} at ({:.4f}, {:.4f}, {:.4f}) m", camera["image"].get<int>(),
-                  t[0].get<double>(), t[1].get<double>(), t[2].get<double>());
+  std::string line = fmt::format("  image {:<4} at {}", camera["image"].get<int>(),
+                                 point_text(camera["T_world_cam"]["translation_m"]));
   if (camera["located_by"] == "dataset") return line + ", as the dataset has it\n";
   return line + fmt::format(", by {} markers, {:.3f} px rms\n", camera["board_markers"].get<int>(),
                             camera["rms_px"].get<double>());

@@ -1,7 +1,10 @@
 #include "board_fit.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <set>
+
+#include "model_error.hpp"
 
 namespace vantage::detail {
 namespace {
@@ -78,6 +81,29 @@ std::optional<BoardFit> settle(std::span<const BoardPair> pairs, const Pose& T_c
   const auto fit = fit_pairs(pairs, board.pairs, board.T_cam_world(), 0);
   if (!fit) return {};
   board.fit = *fit;
+  return board;
+}
+
+BoardFit with_model_error(std::vector<BoardPair>& pairs, BoardFit board) {
+  constexpr int kRounds = 3;  // weights follow from residuals, and residuals from weights
+  const double freedom = std::max(2 * double(board.points(pairs)) - 6, 1.0);
+  if (board.fit.chi_square <= freedom * unlikely_ratio(freedom)) return board;
+  const std::vector<BoardPair> original = pairs;
+  for (int round = 0; round < kRounds; ++round) {
+    std::vector<PointResidual> residuals;
+    for (const std::size_t i : board.pairs) {
+      for (const double px : residuals_px(original[i].term, board.T_cam_world())) {
+        residuals.push_back({px * px, original[i].term.sigma_px});
+      }
+    }
+    const double model_px = model_error_px(residuals, freedom);
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+      pairs[i].term.sigma_px = std::hypot(original[i].term.sigma_px, model_px);
+    }
+    const auto fit = fit_pairs(pairs, board.pairs, board.T_cam_world(), 0);
+    if (!fit) break;
+    board.fit = *fit;
+  }
   return board;
 }
 

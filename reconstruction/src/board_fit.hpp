@@ -43,6 +43,11 @@ std::optional<PoseFit> fit_pairs(std::span<const BoardPair> all, std::span<const
 std::optional<BoardFit> settle(std::span<const BoardPair> pairs, const Pose& T_cam_world,
                                double inlier_px);
 
+/// The fit again, where the residuals are larger than noise makes them in one of a thousand cases,
+/// with what calibration, lens and print add to it (model_error.hpp): adds that to the terms'
+/// sigmas.
+BoardFit with_model_error(std::vector<BoardPair>& pairs, BoardFit board);
+
 /// How far off a rough pose from a single marker may put the others, in units of `inlier_px`.
 inline constexpr double kRough = 8;
 

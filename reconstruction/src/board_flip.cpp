@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model_error.hpp"
 #include "pose_manifold.hpp"
 
 namespace vantage::detail {
@@ -65,14 +66,6 @@ double freedom_of(std::size_t points) {
 
 double excess_of(double chi_square, std::size_t points) {
   return std::max(chi_square / freedom_of(points), 1.0);
-}
-
-double significant_excess_of(double chi_square, std::size_t points) {
-  // Wilson and Hilferty's approximation of the chi-square distribution's quantile.
-  const double kNormalQuantile = 3.09, spread = 2 / (9 * freedom_of(points));
-  const double most = std::pow(1 - spread + kNormalQuantile * std::sqrt(spread), 3);
-  const double excess = excess_of(chi_square, points);
-  return excess > most ? excess : 1;
 }
 
 }  // namespace vantage::detail

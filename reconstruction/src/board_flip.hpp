@@ -25,8 +25,4 @@ double freedom_of(std::size_t points);
 /// is left over is then the camera's calibration or the board's bend, and proves nothing.
 double excess_of(double chi_square, std::size_t points);
 
-/// The same, if the excess is more than chance gives once in a thousand; else 1: sigmas are
-/// believed unless they are wrong, as covariances would all be too large otherwise.
-double significant_excess_of(double chi_square, std::size_t points);
-
 }  // namespace vantage::detail

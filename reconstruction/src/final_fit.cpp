@@ -6,6 +6,7 @@
 #include <map>
 
 #include "canonical_pose.hpp"
+#include "model_error.hpp"
 #include "pose_fit.hpp"
 #include "symmetry.hpp"
 
@@ -14,6 +15,7 @@ namespace {
 
 constexpr double kLossSigmas = 5;  // Gaussian noise loses next to nothing by it
 constexpr int kMostSteps = 10;
+constexpr int kModelRounds = 3;  // weights follow from residuals, and residuals from weights
 
 PointTerm point_term(const Reading& reading) {
   const SeenPoints& seen = *reading.sighting->points();
@@ -64,14 +66,15 @@ struct ViewResiduals {
   }
 };
 
-void add_points(const Reading& reading, const Pose& T_world_object, ViewResiduals& residuals) {
+void add_points(const Reading& reading, const Pose& T_world_object, double model_px,
+                ViewResiduals& residuals) {
   const PointTerm term = point_term(reading);
   Eigen::VectorXd r(2 * Eigen::Index(term.pixels.size()));
   for (std::size_t i = 0; i < term.pixels.size(); ++i) {
     const Eigen::Vector3d p = term.T_cam_ref * (T_world_object * term.points_m[i]);
     r.segment<2>(2 * Eigen::Index(i)) = reading.sighting->lens->project(p) - term.pixels[i];
   }
-  residuals.add(r, term.sigma_px, jacobian(term, T_world_object),
+  residuals.add(r, std::hypot(term.sigma_px, model_px), jacobian(term, T_world_object),
                 camera_jacobian(term, T_world_object));
 }
 
@@ -106,14 +109,15 @@ struct Normal {
   double chi_square = 0;
 };
 
-Normal normal_equations(const Explanation& explanation) {
+/// `model_px` adds to the noise of points.
+Normal normal_equations(const Explanation& explanation, double model_px) {
   std::map<std::size_t, ViewResiduals> views;
   std::map<std::size_t, const CameraView*> cameras;
   for (const Reading* reading : explanation.readings) {
     const std::size_t view = reading->sighting->id.view;
     cameras[view] = reading->sighting->view;
     if (reading->sighting->points()) {
-      add_points(*reading, explanation.T_world_object, views[view]);
+      add_points(*reading, explanation.T_world_object, model_px, views[view]);
     } else {
       add_pose(*reading, explanation.T_world_object, views[view]);
     }
@@ -136,9 +140,9 @@ bool exact_cameras(const Explanation& explanation) {
 }
 
 /// Gauss–Newton from a pose that is all but there.
-void polish(Explanation& explanation) {
+void polish(Explanation& explanation, double model_px) {
   for (int step = 0; step < kMostSteps; ++step) {
-    const Normal normal = normal_equations(explanation);
+    const Normal normal = normal_equations(explanation, model_px);
     const Eigen::LDLT<Matrix6d> solver(normal.information);
     if (!(solver.rcond() > 1e-15)) return;
     const Vector6d move = -solver.solve(normal.slope);
@@ -164,32 +168,39 @@ int degrees_of_freedom(const Explanation& explanation) {
   return std::max(0, residuals - 6);
 }
 
-/// The 99.9 % quantile of chi-square over its degrees of freedom (Wilson and Hilferty, 1931).
-double unlikely_ratio(int degrees_of_freedom) {
-  const double spread = 2.0 / (9.0 * degrees_of_freedom);
-  return std::pow(1 - spread + 3.09 * std::sqrt(spread), 3);
+/// The residuals of all points at the pose.
+std::vector<PointResidual> point_residuals(const Explanation& explanation) {
+  std::vector<PointResidual> residuals;
+  for (const Reading* reading : explanation.readings) {
+    if (!reading->sighting->points()) continue;
+    const PointTerm term = point_term(*reading);
+    for (const double px : residuals_px(term, explanation.T_world_object)) {
+      residuals.push_back({px * px, term.sigma_px});
+    }
+  }
+  return residuals;
 }
 
 }  // namespace
 
 FinalFit fit_finally(Explanation explanation) {
   explanation.T_world_object = robust_pose(explanation);
-  Normal normal;
-  if (exact_cameras(explanation)) {
-    weigh_again(explanation);
-    normal = {explanation.sum.information, explanation.sum.slope, explanation.sum.chi_square};
-  } else {
-    polish(explanation);
-    weigh_again(explanation);
-    normal = normal_equations(explanation);
+  const bool exact = exact_cameras(explanation);
+  if (!exact) polish(explanation, 0);
+  Normal normal = normal_equations(explanation, 0);
+  const double chi_square = normal.chi_square;
+  const int freedom = degrees_of_freedom(explanation);
+  for (int round = 0; round < kModelRounds && freedom > 0; ++round) {
+    if (chi_square <= freedom * unlikely_ratio(freedom)) break;
+    const double model_px = model_error_px(point_residuals(explanation), freedom);
+    polish(explanation, model_px);
+    normal = normal_equations(explanation, model_px);
   }
-  FinalFit fit{std::move(explanation), {}, normal.chi_square, 0};
-  fit.degrees_of_freedom = degrees_of_freedom(fit.explanation);
+  weigh_again(explanation);
+  FinalFit fit{std::move(explanation), {}, chi_square, freedom};
   fit.covariance = covariance_of(without_symmetric_turns(fit.explanation, normal.information));
-  const double ratio = fit.chi_square / std::max(1, fit.degrees_of_freedom);
-  if (fit.degrees_of_freedom > 0 && ratio > unlikely_ratio(fit.degrees_of_freedom)) {
-    fit.covariance *= ratio;
-  }
+  const double ratio = normal.chi_square / std::max(1, freedom);  // of measured poses, above all
+  if (freedom > 0 && ratio > unlikely_ratio(freedom)) fit.covariance *= ratio;
   return fit;
 }
 

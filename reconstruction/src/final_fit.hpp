@@ -16,8 +16,9 @@ struct FinalFit {
 /// pose has a covariance, then by generalised least squares, in which the residuals of one view go
 /// together as its pose's error moves them (S = W⁻¹ + J_c Σ_c J_cᵀ for the view's residuals).
 ///
-/// The covariance is (Σ JᵀS⁻¹J)⁻¹; if the residuals are larger than noise makes them in one of a
-/// thousand cases, times chi-square over the degrees of freedom: then calibration or lens are off.
+/// The covariance is (Σ JᵀS⁻¹J)⁻¹. Where the residuals are larger than noise makes them in one of a
+/// thousand cases, calibration, print or shape are off: what they add to the noise is estimated,
+/// and the fit repeated with it (model_error.hpp). `chi_square` stays that of the noise alone.
 /// Turns that a continuous symmetry leaves open get large variances, as covariance_of has them.
 FinalFit fit_finally(Explanation explanation);
 

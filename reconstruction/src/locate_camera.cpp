@@ -30,19 +30,20 @@ std::string disagreement(const SeenBoard& seen, const BoardFit* best, double inl
       best->pairs.size(), seen.sound, inlier_px);
 }
 
-/// The camera's pose from the board's in its frame, with what the residuals say about it.
+/// The camera's pose from the board's in its frame, with what the residuals say about it. Its
+/// chi-square is that of the corners' noise alone.
 LocatedPose located(std::span<const BoardPair> all, const BoardFit& board) {
+  std::vector<BoardPair> pairs(all.begin(), all.end());
+  const BoardFit weighed = detail::with_model_error(pairs, board);
   Matrix6d information = Matrix6d::Zero();
-  for (const std::size_t i : board.pairs) {
-    detail::PointTerm term = all[i].term;
-    term.T_cam_ref = board.T_cam_world();  // and the body, which is the world, where it is
+  for (const std::size_t i : weighed.pairs) {
+    detail::PointTerm term = pairs[i].term;
+    term.T_cam_ref = weighed.T_cam_world();  // and the body, which is the world, where it is
     const auto j = detail::camera_jacobian(term, {});
     information += j.transpose() * j / (term.sigma_px * term.sigma_px);
   }
-  const double chi_square = board.fit.chi_square;
-  const double excess = detail::significant_excess_of(chi_square, board.points(all));
-  return {board.T_cam_world().inverse(), excess * detail::covariance_of(information),
-          board.fit.rms_px, chi_square};
+  return {weighed.T_cam_world().inverse(), detail::covariance_of(information), weighed.fit.rms_px,
+          board.fit.chi_square};
 }
 
 double turn_between(const Pose& a, const Pose& b) {
