@@ -14,13 +14,13 @@ namespace {
 constexpr Intrinsics kCamera{160, 120, 150, 150, 79.5, 59.5};
 
 /// Two cubes on a table, and two cameras above that measure depth.
-struct Scene {
+struct TwoCubes {
   std::vector<TrueObject> truth{
       {"red", test::cube_type("red"), Pose::from_translation({-0.05, 0, 0.025})},
       {"blue", test::cube_type("blue"), Pose::from_translation({0.05, 0, 0.025})}};
   std::vector<ScoredImage> images;
 
-  Scene() {
+  TwoCubes() {
     SceneBuilder builder;
     builder.add_box(Box({-1, -1, -0.1}, {1, 1, 0}));
     for (const TrueObject& object : truth) {
@@ -47,7 +47,7 @@ struct Scene {
 }  // namespace
 
 TEST_CASE("the truth has full marks") {
-  const Scene scene;
+  const TwoCubes scene;
   const auto scores = bop_scores(Judge(scene.truth), scene.shifted({0, 0, 0}), scene.images);
   REQUIRE(scores);
   CHECK(scores->targets == 4);
@@ -55,7 +55,7 @@ TEST_CASE("the truth has full marks") {
 }
 
 TEST_CASE("a shift costs the thresholds that lie below it") {
-  const Scene scene;
+  const TwoCubes scene;
   const double diameter = 0.05 * std::sqrt(3.0);
   const auto scores =
       bop_scores(Judge(scene.truth), scene.shifted({0, 0, 0.17 * diameter}), scene.images);
@@ -67,7 +67,7 @@ TEST_CASE("a shift costs the thresholds that lie below it") {
 }
 
 TEST_CASE("MSPD's thresholds are pixels of an image that is 640 wide") {
-  Scene scene;
+  TwoCubes scene;
   scene.images.resize(1);
   scene.images[0].T_world_cam = Pose::looking_at({0, 0, 0.55}, {0, 0, 0});  // 0.5 m above them
   scene.images[0].depth = nullptr;
@@ -80,7 +80,7 @@ TEST_CASE("MSPD's thresholds are pixels of an image that is 640 wide") {
 }
 
 TEST_CASE("each estimate's errors are those of its object") {
-  const Scene scene;
+  const TwoCubes scene;
   Reconstruction swapped = scene.shifted({0, 0, 0.002});
   std::swap(swapped.objects[0], swapped.objects[1]);
   const auto errors = estimate_errors(Judge(scene.truth), swapped);
@@ -96,7 +96,7 @@ TEST_CASE("each estimate's errors are those of its object") {
 }
 
 TEST_CASE("hidden objects are no targets, and finding them does neither good nor harm") {
-  Scene scene;
+  TwoCubes scene;
   for (ScoredImage& image : scene.images) {  // a wall at 10 cm
     image.depth = std::make_shared<const DepthImage>(160, 120, std::vector<float>(160 * 120, 0.1f));
   }
@@ -104,7 +104,7 @@ TEST_CASE("hidden objects are no targets, and finding them does neither good nor
 }
 
 TEST_CASE("what is not found is missing from every recall") {
-  const Scene scene;
+  const TwoCubes scene;
   Reconstruction one = scene.shifted({0, 0, 0});
   one.objects.pop_back();
   const auto scores = bop_scores(Judge(scene.truth), one, scene.images);
@@ -116,7 +116,7 @@ TEST_CASE("what is not found is missing from every recall") {
 }
 
 TEST_CASE("scores are the same at any number of threads") {
-  const Scene scene;
+  const TwoCubes scene;
   const Judge judge(scene.truth);
   const Reconstruction off = scene.shifted({0.004, -0.003, 0.01});
   std::vector<BopScores> all;

@@ -13,7 +13,7 @@ namespace {
 using test::cube_type;
 
 /// A red and a blue cube; the first camera sees both, the second red, the third blue.
-struct Scene {
+struct TwoCubes {
   std::vector<TrueObject> truth{{"red", cube_type("red"), Pose::from_translation({-0.05, 0, 0})},
                                 {"blue", cube_type("blue"), Pose::from_translation({0.05, 0, 0})}};
   std::vector<CameraView> views{test::view_of_marks({0, -0.2, 0.7}, truth),
@@ -23,7 +23,7 @@ struct Scene {
 
 /// Puts each object that is named by a key where it truly is, but off by 1 mm for each camera that
 /// is missing of three.
-EvaluatedMethod pretender(const Scene& scene) {
+EvaluatedMethod pretender(const TwoCubes& scene) {
   return {"pretender", [&scene](std::span<const CameraView> views) {
             Reconstruction result;
             for (const TrueObject& object : scene.truth) {
@@ -43,7 +43,8 @@ EvaluatedMethod pretender(const Scene& scene) {
           }};
 }
 
-std::vector<SubsetRun> run(const Scene& scene, const SubsetPlan& plan, const StopToken& stop = {}) {
+std::vector<SubsetRun> run(const TwoCubes& scene, const SubsetPlan& plan,
+                           const StopToken& stop = {}) {
   const Judge judge(scene.truth);
   const EvaluatedMethod method = pretender(scene);
   return evaluate_subsets(scene.views, judge, std::span(&method, 1), plan, stop);
@@ -52,7 +53,7 @@ std::vector<SubsetRun> run(const Scene& scene, const SubsetPlan& plan, const Sto
 }  // namespace
 
 TEST_CASE("an object is seen where its feature is where it has to be") {
-  const Scene scene;
+  const TwoCubes scene;
   const auto seen = seen_objects(scene.views, scene.truth);
   CHECK(seen == std::vector<std::vector<bool>>{{true, true}, {true, false}, {false, true}});
   CHECK(seen_by(seen, CameraSubset{1, 2}) == std::vector<bool>{true, true});
@@ -73,13 +74,13 @@ TEST_CASE("instances of a type are told apart by where their features are") {
 }
 
 TEST_CASE("subsets that see every object that all cameras see") {
-  const Scene scene;
+  const TwoCubes scene;
   const auto covering = covering_subsets(scene.views, scene.truth, camera_subsets(3, 1, 3));
   CHECK(covering == std::vector<CameraSubset>{{0}, {0, 1}, {0, 2}, {1, 2}, {0, 1, 2}});
 }
 
 TEST_CASE("every subset in every trial, in order; errors by the number of cameras") {
-  const Scene scene;
+  const TwoCubes scene;
   const auto runs = run(scene, {.subsets = camera_subsets(3, 1, 3), .trials = 2});
   REQUIRE(runs.size() == 14);
   for (std::size_t i = 0; i < runs.size(); ++i) {
@@ -94,7 +95,7 @@ TEST_CASE("every subset in every trial, in order; errors by the number of camera
 }
 
 TEST_CASE("what is lost cannot be found, and what is ignored is not seen by the method") {
-  const Scene scene;
+  const TwoCubes scene;
   const auto lost = run(scene, {.subsets = {{0, 1, 2}}, .disturbance = {.drop = 1}});
   CHECK(lost[0].verdicts[0].true_objects == 2);  // the cameras saw them
   CHECK(lost[0].verdicts[0].estimates == 0);
@@ -103,7 +104,7 @@ TEST_CASE("what is lost cannot be found, and what is ignored is not seen by the 
 }
 
 TEST_CASE("subsets have the same verdicts at any number of threads") {
-  const Scene scene;
+  const TwoCubes scene;
   const SubsetPlan plan{.subsets = camera_subsets(3, 1, 3),
                         .disturbance = {.drop = 0.4, .wrong_ids = 0.3},
                         .trials = 20,
@@ -126,7 +127,7 @@ TEST_CASE("subsets have the same verdicts at any number of threads") {
 }
 
 TEST_CASE("progress is reported, and a cancelled evaluation stops") {
-  const Scene scene;
+  const TwoCubes scene;
   const StopToken stop;
   const auto runs = run(scene, {.subsets = camera_subsets(3, 1, 3)}, stop);
   CHECK(runs.size() == 7);
