@@ -79,7 +79,8 @@ struct SeenBody {
   }
 };
 
-inline double difference(const Pose& a, const Pose& b) {
+/// Metres and the difference of the matrices, added up: zero for equal poses only.
+inline double pose_distance(const Pose& a, const Pose& b) {
   return (a.translation() - b.translation()).norm() + (a.rotation() - b.rotation()).norm();
 }
 

@@ -35,7 +35,7 @@ TEST_CASE("exact corners give the exact camera, for any layout and lens") {
     const CameraLocation found = locate(board, lens);
     CAPTURE(found.reason);
     REQUIRE(found.pose);
-    CHECK(difference(found.pose->T_world_cam, board.T_world_cam) < 1e-8);
+    CHECK(pose_distance(found.pose->T_world_cam, board.T_world_cam) < 1e-8);
     CHECK(found.inliers.size() == board.observations.size());
     CHECK(found.outliers.empty());
     CHECK(found.alternatives.empty());
@@ -74,7 +74,7 @@ TEST_CASE("more markers make the error smaller") {
       const CameraLocation found = locate(board, some_lenses()[1]);
       CAPTURE(found.reason);
       REQUIRE(found.pose);
-      sum += difference(found.pose->T_world_cam, board.T_world_cam);
+      sum += pose_distance(found.pose->T_world_cam, board.T_world_cam);
     }
     CHECK(sum < 0.8 * before);
     before = sum;
@@ -94,7 +94,7 @@ TEST_CASE("three markers in ten that are read wrongly or moved are found out") {
     REQUIRE(found.pose);
     CHECK(found.outliers == std::vector<std::size_t>{1, 4, 7});
     CHECK(found.inliers == std::vector<std::size_t>{0, 2, 3, 5, 6, 8, 9});
-    CHECK(difference(found.pose->T_world_cam, board.T_world_cam) < 0.05);
+    CHECK(pose_distance(found.pose->T_world_cam, board.T_world_cam) < 0.05);
     CHECK(found.pose->rms_px < 0.5);
   }
 }
@@ -110,7 +110,7 @@ TEST_CASE("of two observations of one marker the one that fits is taken") {
   const CameraLocation found = locate(board);
   REQUIRE(found.pose);
   CHECK(found.outliers == std::vector<std::size_t>{0, 9});
-  CHECK(difference(found.pose->T_world_cam, board.T_world_cam) < 0.02);
+  CHECK(pose_distance(found.pose->T_world_cam, board.T_world_cam) < 0.02);
 }
 
 TEST_CASE("a marker that is on the board twice is told by where it is") {
@@ -121,7 +121,7 @@ TEST_CASE("a marker that is on the board twice is told by where it is") {
   const CameraLocation found = locate(board);
   REQUIRE(found.pose);
   CHECK(found.inliers.size() == 8);
-  CHECK(difference(found.pose->T_world_cam, board.T_world_cam) < 0.02);
+  CHECK(pose_distance(found.pose->T_world_cam, board.T_world_cam) < 0.02);
 }
 
 TEST_CASE("two groups of markers that contradict each other are no pose") {
@@ -191,7 +191,7 @@ TEST_CASE("one faulty marker does no harm to the others") {
   const CameraLocation found = locate(board);
   REQUIRE(found.pose);
   CHECK(found.outliers == std::vector<std::size_t>{4});
-  CHECK(difference(found.pose->T_world_cam, board.T_world_cam) < 0.02);
+  CHECK(pose_distance(found.pose->T_world_cam, board.T_world_cam) < 0.02);
 }
 
 TEST_CASE("a board of single points, not on one plane, locates the camera too") {
@@ -208,7 +208,7 @@ TEST_CASE("a board of single points, not on one plane, locates the camera too") 
   const CameraLocation found = locate(board, some_lenses()[1]);
   CAPTURE(found.reason);
   REQUIRE(found.pose);
-  CHECK(difference(found.pose->T_world_cam, camera) < 1e-8);
+  CHECK(pose_distance(found.pose->T_world_cam, camera) < 1e-8);
 }
 
 }  // namespace vantage::test

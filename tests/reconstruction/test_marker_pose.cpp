@@ -29,7 +29,7 @@ struct SeenPointsOfBody {
 /// Of all guesses, how far the closest one is from the truth.
 double closest(const std::vector<PoseGuess>& guesses, const Pose& truth) {
   double least = INFINITY;
-  for (const PoseGuess& g : guesses) least = std::min(least, difference(g.T_cam_body, truth));
+  for (const PoseGuess& g : guesses) least = std::min(least, pose_distance(g.T_cam_body, truth));
   return least;
 }
 
@@ -51,7 +51,7 @@ TEST_CASE("exact corners of a marker anywhere on a body give its pose, best firs
     const auto guesses = seen.guesses(lens);
     REQUIRE(!guesses.empty());
     CHECK(guesses.size() <= 2);
-    CHECK(difference(guesses[0].T_cam_body, pose) < 1e-6);
+    CHECK(pose_distance(guesses[0].T_cam_body, pose) < 1e-6);
     CHECK(guesses[0].rms_px < 1e-6);
     for (std::size_t i = 1; i < guesses.size(); ++i) {
       CHECK(guesses[i].rms_px >= guesses[i - 1].rms_px);
@@ -91,7 +91,7 @@ TEST_CASE("three points have the true pose among their poses, many points have i
     const auto guesses = seen.guesses(lens);
     REQUIRE(!guesses.empty());
     CHECK(closest(guesses, pose) < 1e-5);
-    if (count > 3) CHECK(difference(guesses[0].T_cam_body, pose) < 1e-5);
+    if (count > 3) CHECK(pose_distance(guesses[0].T_cam_body, pose) < 1e-5);
     CHECK(guesses.size() <= 4);
   }
 }

@@ -90,7 +90,7 @@ TEST_CASE("exact pixels give the exact pose back") {
     const auto fit = fit_pose(body.terms, {}, body.start(random), scene % 2 ? 3 : 0);
     REQUIRE(fit);
     CHECK(fit->converged);
-    CHECK(difference(fit->T_ref_body, body.T_world_body) < 1e-9);
+    CHECK(pose_distance(fit->T_ref_body, body.T_world_body) < 1e-9);
     CHECK(fit->rms_px < 1e-6);
     CHECK(fit->rms_px_of_term.size() == body.terms.size());
   }
@@ -111,7 +111,7 @@ TEST_CASE("the minimum is the one that plain least squares find") {
       return plain_residuals(body.terms, frames, pose, loss_sigmas);
     };
     const Pose minimum = plain_minimum(residuals, body.T_world_body);
-    CHECK(difference(fit->T_ref_body, minimum) < 1e-7);
+    CHECK(pose_distance(fit->T_ref_body, minimum) < 1e-7);
     const double plain = plain_residuals(body.terms, frames, minimum, 0).squaredNorm();
     CHECK(std::abs(fit->chi_square - plain) < 1e-6 * plain);
     if (loss_sigmas > 0) continue;
@@ -135,11 +135,11 @@ TEST_CASE("one marker in five that lies anywhere moves the pose no more than noi
     const auto fit = fit_pose(body.terms, {}, start, 3);
     REQUIRE(fit);
     REQUIRE(clean);
-    CHECK(difference(fit->T_ref_body, body.T_world_body) < 5e-3);
+    CHECK(pose_distance(fit->T_ref_body, body.T_world_body) < 5e-3);
     CHECK(fit->rms_px_of_term[0] > 20);
     CHECK(fit->rms_px_of_term[1] < 1);
-    with += difference(fit->T_ref_body, body.T_world_body);
-    without += difference(clean->T_ref_body, body.T_world_body);
+    with += pose_distance(fit->T_ref_body, body.T_world_body);
+    without += pose_distance(clean->T_ref_body, body.T_world_body);
     // What is turned down tells nothing.
     CHECK(fit->information.trace() < clean->information.trace());
   }
