@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 namespace vantage {
 namespace {
@@ -25,7 +24,9 @@ std::optional<double> share(std::size_t part, std::size_t whole) {
 std::optional<Spread> spread_of(std::vector<double> values) {
   if (values.empty()) return {};
   const std::size_t n = values.size();
-  Spread spread{n, std::accumulate(values.begin(), values.end(), 0.0) / double(n)};
+  double beyond_first = 0;  // so that equal values have exactly their own mean
+  for (const double value : values) beyond_first += value - values[0];
+  Spread spread{n, values[0] + beyond_first / double(n)};
   double squares = 0;
   for (const double value : values) squares += (value - spread.mean) * (value - spread.mean);
   if (n > 1) spread.deviation = std::sqrt(squares / double(n - 1));

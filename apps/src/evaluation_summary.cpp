@@ -27,7 +27,7 @@ std::string percent(const std::optional<double>& share) {
 }
 
 std::string row(const std::string& method, const std::string& cameras, const RunSummary& summary) {
-  return fmt::format("{:<8}{:>7}{:>7}{:>18}{:>18}{:>18}{:>20}{:>9}{:>11}\n", method, cameras,
+  return fmt::format("{:<8}{:>8}{:>7}{:>18}{:>18}{:>18}{:>20}{:>10}{:>13}\n", method, cameras,
                      summary.runs, mean_and_deviation(summary.translation_m, kMillimetres),
                      mean_and_deviation(summary.rotation_rad, kDegrees),
                      mean_and_deviation(summary.mssd_m, kMillimetres),
@@ -75,7 +75,7 @@ std::string summary_of_evaluation(const ReconstructionEvaluation& evaluation) {
   std::string text =
       fmt::format("{} true objects, {} cameras, {} subsets, {} runs\n\n", evaluation.truth.size(),
                   evaluation.images.size(), evaluation.subsets.size(), evaluation.runs.size());
-  text += fmt::format("{:<8}{:>7}{:>7}{:>17}{:>18}{:>17}{:>19}{:>10}{:>11}\n", "method", "cameras",
+  text += fmt::format("{:<8}{:>8}{:>7}{:>18}{:>18}{:>18}{:>20}{:>10}{:>13}\n", "method", "cameras",
                       "runs", "translation mm", "rotation °", "MSSD mm", "consistency mm²",
                       "recall %", "precision %");
   for (const MethodEvaluation& method : evaluation.methods) {

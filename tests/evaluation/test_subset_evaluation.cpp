@@ -146,6 +146,7 @@ TEST_CASE("mean, deviation, median and largest") {
   CHECK(spread.median == doctest::Approx(3));
   CHECK(spread.largest == 9);
   CHECK(spread_of({5}).value().deviation == 0);
+  CHECK(spread_of({0.1, 0.1, 0.1}).value().deviation == 0);
 }
 
 TEST_CASE("summaries count over runs and average over their means") {
