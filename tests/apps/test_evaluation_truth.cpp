@@ -111,12 +111,12 @@ TEST_CASE("a truth that cannot be read is refused with the place") {
     test::expect_bad_input(where, message, [&] { read(folder, {{"0", json::array({bad})}}); });
   };
   refused("obj_id", 3, "scene_gt.json", "the knowledge base has no BOP model 3");
-  refused("obj_id", "7", "obj_id", "integer");
+  refused("obj_id", "7", "obj_id", "expected a whole number");
   refused("cam_t_m2c", {1, 2}, "cam_t_m2c", "3");
   refused("cam_R_m2c", {2, 0, 0, 0, 2, 0, 0, 0, 2}, "scene_gt.json", "rotation");
   json lacking = good;
   lacking.erase("cam_t_m2c");
-  test::expect_bad_input("scene_gt.json", "cam_t_m2c", [&] {
+  test::expect_bad_input("cam_t_m2c", "missing; expected an array of 3 numbers", [&] {
     read(folder, {{"0", json::array({lacking})}});
   });
 }

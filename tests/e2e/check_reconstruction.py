@@ -72,9 +72,10 @@ class Model:
         end = lines.index("end_header")
         counts = {w[1]: int(w[2]) for w in map(str.split, lines[:end]) if w[0] == "element"}
         body = [line.split() for line in lines[end + 1:]]
-        self.points = np.array([row[:3] for row in body[:counts["vertex"]]], dtype=float)
+        corners = np.array([row[:3] for row in body[:counts["vertex"]]], dtype=float)
+        self.points = np.unique(corners, axis=0)  # faces have corners of their own in the file alone
         faces = body[counts["vertex"]:][:counts["face"]]
-        self.triangles = self.points[np.array([row[1:4] for row in faces], dtype=int)]
+        self.triangles = corners[np.array([row[1:4] for row in faces], dtype=int)]
         self.diameter = info["diameter"]
         self.symmetries = symmetries_of(info)
 
