@@ -8,6 +8,8 @@
 namespace vantage::detail {
 namespace {
 
+constexpr double kMarkerChiSquare = 26.1;  // 99.9 %, eight coordinates
+
 /// The evidence of an object's fit with what its sightings may be off by, beside their noise.
 Matrix6d cautious_information(const Explanation& object, const Bounds& bounds) {
   Evidence sum;
@@ -23,7 +25,8 @@ bool view_has(const Explanation& object, std::size_t view, std::size_t feature) 
   });
 }
 
-/// Whether the sighting lies where the object has these corners, from whichever it is counted.
+/// Whether the sighting lies where the object has these corners, from whichever it is counted. Less
+/// is forgiven than for readings: a marker that stands before another one is not that one.
 bool lies_at(const Sighting& sighting, std::vector<Eigen::Vector3d> corners,
              const Explanation& object, const Matrix6d& information, const Bounds& bounds) {
   Reading reading{&sighting, 0, object.readings.front()->feature, {}, {}};
@@ -33,7 +36,7 @@ bool lies_at(const Sighting& sighting, std::vector<Eigen::Vector3d> corners,
     if (e.in_front) {
       const Eigen::LLT<Matrix6d> both(Matrix6d(information + e.information));
       const double distance = e.chi_square - e.slope.dot(both.solve(e.slope));
-      if (distance <= bounds.largest_chi_square(reading)) return true;
+      if (distance <= kMarkerChiSquare) return true;
     }
     std::rotate(corners.begin(), corners.begin() + 1, corners.end());
   }
