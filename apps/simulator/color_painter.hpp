@@ -5,10 +5,10 @@
 
 #include "simulator/color_sensor.hpp"
 #include "simulator/lamp.hpp"
-#include "vantage/raycore/lens.hpp"
 #include "simulator/ray_block.hpp"
 #include "simulator/sample_table.hpp"
 #include "simulator/surface_color.hpp"
+#include "vantage/raycore/lens.hpp"
 
 namespace vantage {
 

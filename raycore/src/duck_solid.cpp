@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "solid_checks.hpp"
-#include "vantage/raycore/solids.hpp"
 #include "surface_nets.hpp"
 #include "vantage/raycore/error.hpp"
+#include "vantage/raycore/solids.hpp"
 
 namespace vantage {
 namespace {

@@ -6,8 +6,8 @@
 
 #include "ring_stack.hpp"
 #include "solid_checks.hpp"
-#include "vantage/raycore/solids.hpp"
 #include "vantage/raycore/error.hpp"
+#include "vantage/raycore/solids.hpp"
 
 namespace vantage {
 namespace {

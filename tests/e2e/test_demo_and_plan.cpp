@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include "run_command.hpp"
 #include "documents/schema_check.hpp"
 #include "documents/schemas.hpp"
+#include "run_command.hpp"
 #include "vantage/reconstruction/color_image.hpp"
 
 namespace vantage {
@@ -204,7 +204,7 @@ TEST_CASE("Ctrl-C gives exit code 130 and the partial plan") {
   const auto result = run_vantage(
       "plan '" + test::write_scene(folder).string() +
           "' --work-area -0.5 -0.5 0.01 0.5 0.5 0.5 --voxel-size 0.001 -o '" + out + "'",
-      "timeout --preserve-status -s INT 2");
+      "timeout --foreground --preserve-status -s INT 2");
   CHECK(result.exit_code == 130);
   CHECK(result.out.find("stopped before") == 0);
   const auto plan = nlohmann::json::parse(test::read_text(folder / "out/plan.json"));

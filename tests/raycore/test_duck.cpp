@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "closed_mesh.hpp"
-#include "vantage/raycore/solids.hpp"
-#include "surface_nets.hpp"
 #include "support/expect_error.hpp"
+#include "surface_nets.hpp"
+#include "vantage/raycore/solids.hpp"
 
 using namespace vantage;
 using namespace vantage::test;

@@ -7,8 +7,8 @@
 #include <random>
 
 #include "closed_mesh.hpp"
-#include "vantage/raycore/solids.hpp"
 #include "support/expect_error.hpp"
+#include "vantage/raycore/solids.hpp"
 
 using namespace vantage;
 using namespace vantage::test;

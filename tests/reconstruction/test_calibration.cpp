@@ -25,8 +25,9 @@ Lens read(const std::string& text, int width = 0, int height = 0) {
   return read_calibration(folder.write("camera.yml", "%YAML:1.0\n---\n" + text), width, height);
 }
 
-void check_refused(const std::string& text, std::string_view where_end,
-                   std::initializer_list<std::string_view> parts, int width = 0, int height = 0) {
+void expect_calibration_refused(const std::string& text, std::string_view where_end,
+                                std::initializer_list<std::string_view> parts, int width = 0,
+                                int height = 0) {
   CAPTURE(text);
   expect_refused([&] { read(text, width, height); }, where_end, parts);
 }
@@ -75,41 +76,47 @@ TEST_CASE("the calibration of the printed board's camera is a lens") {
 }
 
 TEST_CASE("what is missing, of the wrong size or no number is refused with its place") {
-  check_refused(kSize + kLens, "camera.yml: camera_matrix", {"missing", "3 × 3"});
-  check_refused(kSize + kCamera, ": distortion_coefficients", {"missing", "4, 5 or 8"});
-  check_refused(kCamera + kLens, ": image_width", {"missing", "no image says it"});
-  check_refused(kSize + kCamera + kLens, ": image_width", {"640", "the images have 1280"}, 1280,
-                960);
-  check_refused("image_width: wide\nimage_height: 3\n" + kCamera + kLens, ": image_width",
-                {"no whole number"});
-  check_refused("image_width: 0\nimage_height: 3\n" + kCamera + kLens, ": camera_matrix",
-                {"width is 0"});
-  check_refused(kSize + kLens + "camera_matrix: [ 1, 2, 3 ]\n", ": camera_matrix",
-                {"no OpenCV matrix"});
+  expect_calibration_refused(kSize + kLens, "camera.yml: camera_matrix", {"missing", "3 × 3"});
+  expect_calibration_refused(kSize + kCamera, ": distortion_coefficients",
+                             {"missing", "4, 5 or 8"});
+  expect_calibration_refused(kCamera + kLens, ": image_width", {"missing", "no image says it"});
+  expect_calibration_refused(kSize + kCamera + kLens, ": image_width",
+                             {"640", "the images have 1280"}, 1280, 960);
+  expect_calibration_refused("image_width: wide\nimage_height: 3\n" + kCamera + kLens,
+                             ": image_width", {"no whole number"});
+  expect_calibration_refused("image_width: 0\nimage_height: 3\n" + kCamera + kLens,
+                             ": camera_matrix", {"width is 0"});
+  expect_calibration_refused(kSize + kLens + "camera_matrix: [ 1, 2, 3 ]\n", ": camera_matrix",
+                             {"no OpenCV matrix"});
   const auto camera = [](const std::string& numbers) {
     return kSize + kLens + matrix("camera_matrix", 3, 3, numbers);
   };
-  check_refused(camera("615., 0., 322.3, 0., 611., 238.1"), ": camera_matrix", {"no matrix"});
-  check_refused(camera("615., 0.5, 322.3, 0., 611., 238.1, 0., 0., 1."), ": camera_matrix",
-                {"skewed by 0.5", "expected 0"});
-  check_refused(camera("615., 0., 322.3, 0., 611., 238.1, 0., 0., 2."), ": camera_matrix",
-                {"expected [fx, 0, cx, 0, fy, cy, 0, 0, 1]"});
-  check_refused(camera("615., 0., .Nan, 0., 611., 238.1, 0., 0., 1."), ": camera_matrix",
-                {"nan", "finite"});
-  check_refused(camera("-615., 0., 3., 0., 611., 238.1, 0., 0., 1."), ": camera_matrix", {"-615"});
-  check_refused(kSize + kLens + matrix("camera_matrix", 2, 2, "1., 2., 3., 4."), ": camera_matrix",
-                {"2 × 2"});
-  check_refused(kSize + kLens + matrix("camera_matrix", 99999, 99999, "1."), ": camera_matrix",
-                {"99999 × 99999"});
+  expect_calibration_refused(camera("615., 0., 322.3, 0., 611., 238.1"), ": camera_matrix",
+                             {"no matrix"});
+  expect_calibration_refused(camera("615., 0.5, 322.3, 0., 611., 238.1, 0., 0., 1."),
+                             ": camera_matrix", {"skewed by 0.5", "expected 0"});
+  expect_calibration_refused(camera("615., 0., 322.3, 0., 611., 238.1, 0., 0., 2."),
+                             ": camera_matrix", {"expected [fx, 0, cx, 0, fy, cy, 0, 0, 1]"});
+  expect_calibration_refused(camera("615., 0., .Nan, 0., 611., 238.1, 0., 0., 1."),
+                             ": camera_matrix", {"nan", "finite"});
+  expect_calibration_refused(camera("-615., 0., 3., 0., 611., 238.1, 0., 0., 1."),
+                             ": camera_matrix", {"-615"});
+  expect_calibration_refused(kSize + kLens + matrix("camera_matrix", 2, 2, "1., 2., 3., 4."),
+                             ": camera_matrix", {"2 × 2"});
+  expect_calibration_refused(kSize + kLens + matrix("camera_matrix", 99999, 99999, "1."),
+                             ": camera_matrix", {"99999 × 99999"});
   const auto lens = [](int count, const std::string& numbers) {
     return kSize + kCamera + matrix("distortion_coefficients", 1, count, numbers);
   };
-  check_refused(lens(3, "0., 0., 0."), ": distortion_coefficients", {"1 × 3", "4, 5 or 8"});
-  check_refused(lens(12, "0., 0., 0., 0., 0., 0., 0., 0., 0., 0.25, 0., 0."),
-                ": distortion_coefficients",
-                {"coefficient 10 of 12 is 0.25", "CALIB_THIN_PRISM_MODEL"});
-  check_refused(lens(4, "-2., 0., 0., 0."), ": distortion_coefficients", {"folds over"});
-  check_refused(lens(4, ".Inf, 0., 0., 0."), ": distortion_coefficients", {"inf", "finite"});
+  expect_calibration_refused(lens(3, "0., 0., 0."), ": distortion_coefficients",
+                             {"1 × 3", "4, 5 or 8"});
+  expect_calibration_refused(lens(12, "0., 0., 0., 0., 0., 0., 0., 0., 0., 0.25, 0., 0."),
+                             ": distortion_coefficients",
+                             {"coefficient 10 of 12 is 0.25", "CALIB_THIN_PRISM_MODEL"});
+  expect_calibration_refused(lens(4, "-2., 0., 0., 0."), ": distortion_coefficients",
+                             {"folds over"});
+  expect_calibration_refused(lens(4, ".Inf, 0., 0., 0."), ": distortion_coefficients",
+                             {"inf", "finite"});
 }
 
 TEST_CASE("files that are no calibrations are refused, wherever they end") {

@@ -16,7 +16,8 @@ namespace {
 const std::string kMarker = R"({"image": 3, "type": "aruco", "dictionary": "4X4_50", "value": 7,)"
                             R"( "corners_px": [[1, 2], [11, 2.5], [11, 12], [1, 12]]})";
 
-void check_refused(const std::string& line, std::string_view where_end, std::string_view message) {
+void expect_line_refused(const std::string& line, std::string_view where_end,
+                         std::string_view message) {
   CAPTURE(line);
   const TemporaryFolder folder;
   const auto file = folder.write("seen.jsonl", kMarker + "\n\n" + line + "\n");
@@ -81,46 +82,50 @@ TEST_CASE("a file without lines is of a detector that saw nothing") {
 
 TEST_CASE("lines that are not as the schema has them are refused with their place") {
   const std::string start = R"({"image": 0, "type": "a", "value": "b")";
-  check_refused("{", "seen.jsonl:3:2", "no valid JSON");
-  check_refused("[1]", "seen.jsonl:3", "found [1]; expected");
-  check_refused(start + "}", "seen.jsonl:3", "exactly one of the keys");
-  check_refused(start + R"(, "point_m": [0, 0, 1], "points_px": [[1, 2]]})", "seen.jsonl:3",
-                "exactly one of the keys");
-  check_refused(start + R"(, "point_mm": [0, 0, 1]})", "seen.jsonl:3: point_mm", "\"point_m\"");
-  check_refused(start + R"(, "point_m": [0, 1]})", "seen.jsonl:3: point_m", "array of 3");
-  check_refused(start + R"(, "point_m": [0, 1, "much"]})", "seen.jsonl:3: point_m[2]", "much");
-  check_refused(start + R"(, "points_px": []})", "seen.jsonl:3: points_px", "1 to 4096");
-  check_refused(start + R"(, "a": 1, "a": 2})", R"(seen.jsonl:3: "a")", "twice");
-  check_refused(R"({"image": -1, "type": "a", "value": "b", "point_m": [0, 0, 1]})",
-                "seen.jsonl:3: image", ">= 0");
-  check_refused(R"({"type": "a", "value": "b", "point_m": [0, 0, 1]})", "seen.jsonl:3: image",
-                "missing");
-  check_refused(start + R"(, "T_cam_feature": {"rotation": {"w": 2, "x": 0, "y": 0, "z": 0},)" +
-                    R"( "translation_m": [0, 0, 1]}})",
-                "seen.jsonl:3: T_cam_feature.rotation", "norm");
-  check_refused(std::string(100, '['), "seen.jsonl:3:65", "nested");
+  expect_line_refused("{", "seen.jsonl:3:2", "no valid JSON");
+  expect_line_refused("[1]", "seen.jsonl:3", "found [1]; expected");
+  expect_line_refused(start + "}", "seen.jsonl:3", "exactly one of the keys");
+  expect_line_refused(start + R"(, "point_m": [0, 0, 1], "points_px": [[1, 2]]})", "seen.jsonl:3",
+                      "exactly one of the keys");
+  expect_line_refused(start + R"(, "point_mm": [0, 0, 1]})", "seen.jsonl:3: point_mm",
+                      "\"point_m\"");
+  expect_line_refused(start + R"(, "point_m": [0, 1]})", "seen.jsonl:3: point_m", "array of 3");
+  expect_line_refused(start + R"(, "point_m": [0, 1, "much"]})", "seen.jsonl:3: point_m[2]",
+                      "much");
+  expect_line_refused(start + R"(, "points_px": []})", "seen.jsonl:3: points_px", "1 to 4096");
+  expect_line_refused(start + R"(, "a": 1, "a": 2})", R"(seen.jsonl:3: "a")", "twice");
+  expect_line_refused(R"({"image": -1, "type": "a", "value": "b", "point_m": [0, 0, 1]})",
+                      "seen.jsonl:3: image", ">= 0");
+  expect_line_refused(R"({"type": "a", "value": "b", "point_m": [0, 0, 1]})", "seen.jsonl:3: image",
+                      "missing");
+  expect_line_refused(start +
+                          R"(, "T_cam_feature": {"rotation": {"w": 2, "x": 0, "y": 0, "z": 0},)" +
+                          R"( "translation_m": [0, 0, 1]}})",
+                      "seen.jsonl:3: T_cam_feature.rotation", "norm");
+  expect_line_refused(std::string(100, '['), "seen.jsonl:3:65", "nested");
 }
 
 TEST_CASE("what does not fit together in a line is refused") {
   const std::string corners = R"("corners_px": [[1, 2], [11, 2], [11, 12], [1, 12]]})";
   const std::string aruco = R"({"image": 0, "type": "aruco", )";
-  check_refused(aruco + R"("value": 1, )" + corners, "seen.jsonl:3", "\"dictionary\"");
-  check_refused(aruco + R"("dictionary": "4X4_50", "value": "1", )" + corners,
-                "seen.jsonl:3: value", "whole number");
-  check_refused(aruco + R"("dictionary": "4X4_50", "value": 50, )" + corners, "seen.jsonl:3: value",
-                "no id 50");
-  check_refused(aruco + R"("dictionary": "4X4_50", "value": 4294967296, )" + corners,
-                "seen.jsonl:3: value", "4294967296");
-  check_refused(aruco + R"("dictionary": "4X4", "value": 1, )" + corners,
-                "seen.jsonl:3: dictionary", "'4X4'");
-  check_refused(aruco + R"("dictionary": "4X4_50", "value": 1, "point_m": [0, 0, 1]})",
-                "seen.jsonl:3", "\"corners_px\"");
-  check_refused(R"({"image": 0, "type": "a", "value": "b", )" + corners, "seen.jsonl:3: corners_px",
-                "remove it");
-  check_refused(R"({"image": 0, "type": "a", "value": 1, "point_m": [0, 0, 1]})",
-                "seen.jsonl:3: value", "as a string");
-  check_refused(R"({"image": 0, "type": "a", "value": "b", "sigma_px": 1, "point_m": [0, 0, 1]})",
-                "seen.jsonl:3: sigma_px", "remove it");
+  expect_line_refused(aruco + R"("value": 1, )" + corners, "seen.jsonl:3", "\"dictionary\"");
+  expect_line_refused(aruco + R"("dictionary": "4X4_50", "value": "1", )" + corners,
+                      "seen.jsonl:3: value", "whole number");
+  expect_line_refused(aruco + R"("dictionary": "4X4_50", "value": 50, )" + corners,
+                      "seen.jsonl:3: value", "no id 50");
+  expect_line_refused(aruco + R"("dictionary": "4X4_50", "value": 4294967296, )" + corners,
+                      "seen.jsonl:3: value", "4294967296");
+  expect_line_refused(aruco + R"("dictionary": "4X4", "value": 1, )" + corners,
+                      "seen.jsonl:3: dictionary", "'4X4'");
+  expect_line_refused(aruco + R"("dictionary": "4X4_50", "value": 1, "point_m": [0, 0, 1]})",
+                      "seen.jsonl:3", "\"corners_px\"");
+  expect_line_refused(R"({"image": 0, "type": "a", "value": "b", )" + corners,
+                      "seen.jsonl:3: corners_px", "remove it");
+  expect_line_refused(R"({"image": 0, "type": "a", "value": 1, "point_m": [0, 0, 1]})",
+                      "seen.jsonl:3: value", "as a string");
+  expect_line_refused(
+      R"({"image": 0, "type": "a", "value": "b", "sigma_px": 1, "point_m": [0, 0, 1]})",
+      "seen.jsonl:3: sigma_px", "remove it");
 }
 
 TEST_CASE("a file that is missing is named") {

@@ -37,7 +37,7 @@ double mean_nees(const ViewNoise& noise, std::uint32_t trials, int cameras) {
 
 /// Where the mean of so many trials lies in 95 of 100 cases: a sum of chi-squares with six degrees
 /// of freedom each, whose variance is 12.
-void check_nees(const ViewNoise& noise, int cameras) {
+void expect_true_covariance(const ViewNoise& noise, int cameras) {
   const std::uint32_t trials = scene_count(1000);
   const double nees = mean_nees(noise, trials, cameras);
   MESSAGE("NEES " << nees << " over " << trials << " trials");
@@ -47,15 +47,15 @@ void check_nees(const ViewNoise& noise, int cameras) {
 }  // namespace
 
 TEST_CASE("PnP: the covariance is true, with exact cameras") {
-  check_nees({.sigma_px = 0.3}, 4);
+  expect_true_covariance({.sigma_px = 0.3}, 4);
 }
 
 TEST_CASE("PnP: the covariance is true, with cameras that are off as their covariances say") {
-  check_nees({.sigma_px = 0.2, .camera_m = 0.001, .camera_rad = 0.002}, 4);
+  expect_true_covariance({.sigma_px = 0.2, .camera_m = 0.001, .camera_rad = 0.002}, 4);
 }
 
 TEST_CASE("PnP: the covariance is true, with cameras that are hardly off") {
-  check_nees({.sigma_px = 0.3, .camera_m = 0.0001, .camera_rad = 0.0002}, 3);
+  expect_true_covariance({.sigma_px = 0.3, .camera_m = 0.0001, .camera_rad = 0.0002}, 3);
 }
 
 TEST_CASE("PnP: residuals beyond the noise make the covariance larger") {

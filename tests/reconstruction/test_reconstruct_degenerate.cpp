@@ -52,7 +52,7 @@ struct Cell {
   }
 
   /// Nothing found, and every observation for this reason.
-  void check_nothing(const std::string& reason) const {
+  void expect_nothing(const std::string& reason) const {
     for (const Method method : kMethods) {
       const Reconstruction result = by(method);
       CHECK(result.objects.empty());
@@ -89,7 +89,7 @@ TEST_CASE("degenerate: no views, no observations, no types") {
 TEST_CASE("degenerate: cameras that are not located") {
   Cell cell;
   for (CameraView& view : cell.views) view.T_world_cam.reset();
-  cell.check_nothing("not located");
+  cell.expect_nothing("not located");
 }
 
 TEST_CASE("degenerate: corners that are not finite, all the same, or in the wrong order") {
@@ -98,19 +98,19 @@ TEST_CASE("degenerate: corners that are not finite, all the same, or in the wron
     for (CameraView& view : cell.views) {
       for (Observation& o : view.observations) pixels_of(o)[2].x() = kNan;
     }
-    cell.check_nothing("finite");
+    cell.expect_nothing("finite");
   }
   SUBCASE("the same") {
     for (CameraView& view : cell.views) {
       for (Observation& o : view.observations) pixels_of(o).assign(4, {100, 100});
     }
-    cell.check_nothing("");
+    cell.expect_nothing("");
   }
   SUBCASE("crossed") {
     for (CameraView& view : cell.views) {
       for (Observation& o : view.observations) std::swap(pixels_of(o)[0], pixels_of(o)[1]);
     }
-    cell.check_nothing("");
+    cell.expect_nothing("");
   }
 }
 
@@ -120,7 +120,7 @@ TEST_CASE("degenerate: a marker that no type has, or with too many points") {
     for (CameraView& view : cell.views) {
       for (Observation& o : view.observations) o.key = marker_key("4X4_250", 99);
     }
-    cell.check_nothing("no type");
+    cell.expect_nothing("no type");
   }
   SUBCASE("points") {
     for (CameraView& view : cell.views) {
@@ -128,7 +128,7 @@ TEST_CASE("degenerate: a marker that no type has, or with too many points") {
         o.data = SeenPoints{{{10, 10}, {20, 10}, {25, 15}, {20, 20}, {10, 20}}};
       }
     }
-    cell.check_nothing("");
+    cell.expect_nothing("");
   }
 }
 

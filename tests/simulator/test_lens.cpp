@@ -3,8 +3,8 @@
 #include <opencv2/calib3d.hpp>
 
 #include "simulator/color_scenes.hpp"
-#include "vantage/raycore/lens.hpp"
 #include "support/expect_error.hpp"
+#include "vantage/raycore/lens.hpp"
 
 namespace vantage::test {
 namespace {
@@ -22,7 +22,8 @@ cv::Point2d projected(const Eigen::Vector3d& p, const Intrinsics& k, const Disto
   const cv::Matx33d matrix(k.fx, 0, k.cx, 0, k.fy, k.cy, 0, 0, 1);
   std::vector<cv::Point2d> result;
   cv::projectPoints(std::vector<cv::Point3d>{{p.x(), p.y(), p.z()}}, cv::Vec3d(), cv::Vec3d(),
-                    matrix, std::vector<double>{d.k1, d.k2, d.p1, d.p2, d.k3, d.k4, d.k5, d.k6}, result);
+                    matrix, std::vector<double>{d.k1, d.k2, d.p1, d.p2, d.k3, d.k4, d.k5, d.k6},
+                    result);
   return result[0];
 }
 

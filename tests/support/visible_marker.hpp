@@ -5,9 +5,9 @@
 #include <numbers>
 #include <optional>
 
-#include "vantage/reconstruction/marker.hpp"
 #include "vantage/raycore/camera.hpp"
 #include "vantage/raycore/scene.hpp"
+#include "vantage/reconstruction/marker.hpp"
 
 namespace vantage::test {
 
