@@ -106,6 +106,33 @@ TEST_CASE("a plan takes the world that was reconstructed, or reconstructs it its
   CHECK(std::abs(itself["volumes_m3"]["shadow"].get<double>() - shadow) < 0.05 * shadow);
 }
 
+TEST_CASE("a printed board on photographs: one half is found where the other half says") {
+  const auto folder = test::recording("charuco");
+  if (!folder) return;
+  const auto result = run_vantage("reconstruct" + quoted(*folder) + " --workcell" +
+                                  quoted(kWorkcells / "charuco.yaml") + " --calibration" +
+                                  quoted(*folder / "camera.yml") + " --json");
+  CAPTURE(result.err);
+  REQUIRE(result.exit_code == 0);
+  const json world = result.json();
+  REQUIRE(world["cameras"].size() == 3);
+  for (const json& camera : world["cameras"]) {
+    CHECK(camera["board_markers"] == 9);
+    CHECK(camera["rms_px"].get<double>() < 0.57);
+  }
+  REQUIRE(world["objects"].size() == 1);
+  const json& pose = world["objects"][0]["T_world_object"];
+  const json &q = pose["rotation"], &t = pose["translation_m"];
+  const Eigen::Quaterniond turn(q["w"], q["x"], q["y"], q["z"]);
+  const Eigen::Vector3d shift(t[0], t[1], t[2]), middle(0, -0.05, 0);  // of its markers
+  const double mm = 1000 * (turn * middle + shift - middle).norm();
+  const double degrees = 2 * std::acos(std::min(1.0, std::abs(turn.w()))) * 180 / EIGEN_PI;
+  MESSAGE(mm << " mm, " << degrees << " degrees; at the board's middle " << 1000 * shift.norm());
+  CHECK(mm < 0.63);
+  CHECK(degrees < 0.62);
+  CHECK(world["objects"][0]["support"].size() == 20);
+}
+
 TEST_CASE("features come from other detectors, too") {
   const test::TemporaryFolder folder;
   const fs::path data = folder / "wall";

@@ -6,6 +6,7 @@
 #include <vantage/raycore/error.hpp>
 #include <vantage/raycore/scene_builder.hpp>
 #include <vantage/reconstruction/bop_scene.hpp>
+#include <vantage/reconstruction/reconstruct.hpp>
 
 namespace {
 
@@ -62,6 +63,25 @@ bool plan_a_view_behind_a_wall() {
                 "the next view reveals something behind the wall");
 }
 
+/// A detector of the robot's own says where a tool is; the library makes an object of it.
+bool find_a_tool() {
+  vantage::ObjectType tool{"tool"};
+  tool.mesh = std::make_shared<const vantage::TriangleMesh>(
+      vantage::TriangleMesh::from_box({{-0.1, -0.01, 0}, {0.1, 0.01, 0.1}}));
+  tool.features.push_back({{"tracker", "7"}, vantage::FeaturePose{}});
+  const vantage::MemoryKnowledgeBase knowledge({tool});
+  vantage::CameraView view{"front", vantage::Lens({64, 48, 60, 60, 31.5, 23.5}, {})};
+  view.T_world_cam = vantage::Pose::looking_at({0, -0.5, 0.2}, {0, 0, 0.05});
+  view.observations.push_back(
+      {{"tracker", "7"}, vantage::SeenPose{vantage::Pose::from_translation({0, 0, 0.5})}});
+  const auto found = vantage::reconstruct_pnp({&view, 1}, knowledge);
+  const auto objects = vantage::known_objects(found);
+  const Eigen::Vector3d there = *view.T_world_cam * Eigen::Vector3d(0, 0, 0.5);
+  return expect(objects.size() == 1 && objects[0].name == "tool" &&
+                    (objects[0].T_world_object.translation() - there).norm() < 1e-6,
+                "what a detector saw becomes an object in the world");
+}
+
 bool refuse_a_missing_recording() {
   try {
     vantage::load_bop_scene("no such folder");
@@ -76,7 +96,7 @@ bool refuse_a_missing_recording() {
 int main() {
   try {
     const bool good = look_at_a_box() & refuse_a_flat_box() & plan_a_view_behind_a_wall() &
-                      refuse_a_missing_recording();
+                      find_a_tool() & refuse_a_missing_recording();
     return good ? 0 : 1;
   } catch (const std::exception& error) {
     std::printf("WRONG: %s\n", error.what());
