@@ -121,8 +121,12 @@ CameraSource camera_source_of(const std::string& name) {
 BopScene load_dataset(const fs::path& folder, const Workcell& workcell,
                       std::span<const int> only_ids, const ObserveOptions& options) {
   const std::vector<fs::path>& calibrations = calibrations_of(workcell, options);
-  if (fs::exists(folder / "scene_camera.json") || calibrations.size() != 1) {
-    return load_bop_scene(folder, workcell.sensor_range, only_ids);
+  const bool is_scene = fs::exists(folder / "scene_camera.json") || !fs::is_directory(folder);
+  if (is_scene) return load_bop_scene(folder, workcell.sensor_range, only_ids);
+  if (calibrations.size() != 1) {
+    throw bad_input((folder / "scene_camera.json").string(),
+                    "missing; expected a BOP scene folder, or photographs by one camera and its "
+                    "calibration: --calibration camera.yml");
   }
   BopScene scene = load_photographs(folder, read_calibration(calibrations.front()).intrinsics(),
                                     workcell.sensor_range);

@@ -43,15 +43,9 @@ void add_input_options(CLI::App& verb, PlanOptions& plan) {
 
 void add_object_options(CLI::App& verb, ObjectSource& source) {
   verb.add_option(
-          "--objects", source.objects,
-          "given: the workcell's known_objects; pnp, voting, svd: found by that method; or "
-          "a world.json of `vantage reconstruct` (default: given if there are any, else pnp)")
-      ->check([](const std::string& name) -> std::string {
-        const bool known = name == "given" || CLI::IsMember(kReconstructionMethods)(name).empty();
-        return known || std::filesystem::exists(name)
-                   ? ""
-                   : "neither given, pnp, voting or svd, nor a file that is there: " + name;
-      });
+      "--objects", source.objects,
+      "given: the workcell's known_objects; pnp, voting, svd: found by that method; or "
+      "a world.json of `vantage reconstruct` (default: given if there are any, else pnp)");
   source.how.add_to(verb);
 }
 

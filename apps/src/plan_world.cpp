@@ -60,6 +60,11 @@ void use_reconstruction(const BopScene& scene, const Workcell& workcell,
 
 void use_file(const BopScene& scene, const Workcell& workcell, const fs::path& file,
               PlanWorld& plan) {
+  if (!fs::exists(file)) {
+    throw bad_input("--objects", fmt::format("found {}; expected given, pnp, voting or svd, or a "
+                                             "world.json that is there",
+                                             file.string()));
+  }
   WorldFile world = read_world(file, *workcell.knowledge);
   plan.world.objects = std::move(world.objects);
   for (const BopImage& image : scene.images) {

@@ -201,6 +201,13 @@ TEST_CASE("reconstruct says what is missing, with exit code 3") {
   refused(" --workcell" + quoted(no_board) + " --features" + quoted(folder.write("h.jsonl", "")),
           "cam_R_w2c");
   CHECK(run_vantage("reconstruct" + quoted(data) + own + " --method best").exit_code == 2);
+  fs::create_directories(folder / "photographs");
+  const auto photographs = run_vantage("reconstruct" + quoted(folder / "photographs") + own);
+  CHECK(photographs.exit_code == 3);
+  CHECK(photographs.err.find("--calibration") != std::string::npos);
+  const auto plan = run_vantage("plan" + quoted(data) + own + " --objects nothing.json");
+  CHECK(plan.exit_code == 3);
+  CHECK(plan.err.find("nothing.json; expected given, pnp") != std::string::npos);
 }
 
 }  // namespace vantage
