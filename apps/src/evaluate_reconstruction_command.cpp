@@ -8,11 +8,11 @@
 
 #include "command.hpp"
 #include "evaluation_report.hpp"
+#include "inputs_json.hpp"
 #include "interrupt.hpp"
 #include "progress_line.hpp"
 #include "random_objects.hpp"
 #include "reconstruct_options.hpp"
-#include "sha256.hpp"
 #include "vantage/raycore/error.hpp"
 #include "vantage/raycore/file.hpp"
 #include "workers.hpp"
@@ -87,17 +87,6 @@ Json config_json(const EvaluateArguments& arguments) {
   return config;
 }
 
-Json inputs_json(std::vector<fs::path> files) {
-  std::ranges::sort(files);
-  const auto repeated = std::ranges::unique(files);
-  files.erase(repeated.begin(), repeated.end());
-  Json inputs = Json::array();
-  for (const fs::path& file : files) {
-    inputs.push_back({{"path", file.string()}, {"sha256", sha256_of_file(file)}});
-  }
-  return inputs;
-}
-
 void write(const fs::path& folder, const Json& json, const std::string& plot) {
   fs::create_directories(folder);
   write_file(folder / "reconstruction.json", json.dump(1) + "\n");
@@ -125,7 +114,7 @@ ExitCode evaluate(const EvaluateArguments& arguments) {
   files.insert(files.end(), scene.files.begin(), scene.files.end());
   Json json = evaluation_to_json(evaluation);
   json["config"] = config_json(arguments);
-  json["inputs"] = inputs_json(std::move(files));
+  json["inputs"] = inputs_json(files);
   if (!arguments.folder.empty()) {
     const std::string name = fs::absolute(arguments.dataset).lexically_normal().string();
     write(

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
+#include "inputs_json.hpp"
 #include "pose_json.hpp"
-#include "sha256.hpp"
 #include "version.hpp"
 #include "volume_json.hpp"
 #include "volume_settings.hpp"
@@ -61,10 +61,6 @@ double milliseconds(double seconds) {
 }  // namespace
 
 Json plan_to_json(const Plan& plan, const ShadowRegions* regions, const PlanRecord& record) {
-  Json inputs = Json::array();
-  for (const std::filesystem::path& path : record.inputs) {
-    inputs.push_back({{"path", path.string()}, {"sha256", sha256_of_file(path)}});
-  }
   return {{"vantage", kVersion},
           {"method", "voxel"},
           {"partial", plan.stopped != StopReason::none},
@@ -83,7 +79,7 @@ Json plan_to_json(const Plan& plan, const ShadowRegions* regions, const PlanReco
             {"score", milliseconds(plan.score_s)},
             {"total", milliseconds(record.total_s)}}},
           {"config", record.config},
-          {"inputs", inputs}};
+          {"inputs", inputs_json(record.inputs)}};
 }
 
 Json config_of(const PlanRequest& request) {

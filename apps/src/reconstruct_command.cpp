@@ -61,11 +61,7 @@ WorldRecord record_of(const ReconstructCommand& command, const BopScene& scene,
   record.config["workcell"] = command.workcell.string();
   record.config["images"] = command.images;
   for (const auto* files : {&scene.files, &reconstruction.observed.files}) {
-    for (const fs::path& file : *files) {
-      if (std::find(record.inputs.begin(), record.inputs.end(), file) == record.inputs.end()) {
-        record.inputs.push_back(file);
-      }
-    }
+    record.inputs.insert(record.inputs.end(), files->begin(), files->end());
   }
   return record;
 }

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "cell_bundle.hpp"
-#include "sha256.hpp"
+#include "inputs_json.hpp"
 #include "simulator/ground_truth.hpp"
 #include "vantage/planner/plan.hpp"
 #include "vantage/raycore/error.hpp"
@@ -106,10 +106,6 @@ Json write_simulation_record(const fs::path& workcell_file, const Workcell& work
                              const SimulatedCell& cell, const SimulationSettings& settings,
                              const fs::path& folder) {
   const RecordingOptions& recording = settings.recording;
-  Json inputs = Json::array();
-  for (const fs::path& file : workcell.files) {
-    inputs.push_back({{"path", file.string()}, {"sha256", sha256_of_file(file)}});
-  }
   const Json record{{"vantage", kVersion},
                     {"workcell", workcell_file.string()},
                     {"seed", recording.seed},
@@ -119,7 +115,7 @@ Json write_simulation_record(const fs::path& workcell_file, const Workcell& work
                     {"known_objects", workcell.known_objects.size()},
                     {"foreign_objects", workcell.foreign_objects.size()},
                     {"true_volumes_m3", true_volumes_json(workcell, cell)},
-                    {"inputs", inputs}};
+                    {"inputs", inputs_json(workcell.files)}};
   write_cell_bundle(workcell_file, workcell, calibration_names(workcell, recording), folder);
   write_file(folder / kRecordName, record.dump(1) + "\n");
   return record;

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "inputs_json.hpp"
 #include "pose_json.hpp"
-#include "sha256.hpp"
 #include "version.hpp"
 
 namespace vantage {
@@ -108,14 +108,6 @@ Json bop_json(const BopScene& scene, const Workcell& workcell,
     }
   }
   return json;
-}
-
-Json inputs_json(const std::vector<std::filesystem::path>& files) {
-  Json inputs = Json::array();
-  for (const auto& file : files) {
-    inputs.push_back({{"path", file.string()}, {"sha256", sha256_of_file(file)}});
-  }
-  return inputs;
 }
 
 /// Without the minus of a zero.
