@@ -70,7 +70,9 @@ CornerErrors look(const PrintedBoard& board, const Camera& camera) {
   if (camera.knows_lens) options.lens = lens;
   const ArucoDetector detector(options);
   CornerErrors errors;
-  for (const Eigen::Vector3d& eye : {Eigen::Vector3d(0.02, -0.1, 0.3), {-0.22, -0.12, 0.25}}) {
+  std::vector<Eigen::Vector3d> eyes{{0.02, -0.1, 0.3}, {-0.22, -0.12, 0.25}};
+  eyes.resize(scene_count(2));
+  for (const Eigen::Vector3d& eye : eyes) {
     const Pose T_world_cam = Pose::looking_at(eye, {0, 0, 0});
     ColorImage image = BoardCamera(board, lens, T_world_cam).photograph(camera.gamma);
     std::mt19937 random(5);
@@ -86,7 +88,9 @@ CornerErrors look(const PrintedBoard& board, const Camera& camera) {
 }  // namespace
 
 TEST_CASE("corners are right to hundredths of a pixel, and the detector knows how well") {
-  for (const char* dictionary : {"4X4_50", "6X6_250", "APRILTAG_36h11"}) {
+  std::vector<const char*> dictionaries{"4X4_50", "6X6_250", "APRILTAG_36h11"};
+  dictionaries.resize(scene_count(3));
+  for (const char* dictionary : dictionaries) {
     CAPTURE(dictionary);
     for (const double noise : {0.0, 3.0}) {
       if (noise > 0 && dictionary[0] != '4') continue;  // one is enough
@@ -128,7 +132,9 @@ TEST_CASE("through a strong lens, corners are right if the detector knows it") {
 }
 
 TEST_CASE("something dark beside a marker does not drag its corners along") {
-  for (const double gap : {0.0, 0.001, 0.003}) {
+  std::vector<double> gaps{0.003, 0.0, 0.001};
+  gaps.resize(scene_count(3));
+  for (const double gap : gaps) {
     CAPTURE(gap);
     PrintedBoard board;
     for (int i = 0; i < 6; ++i) {
