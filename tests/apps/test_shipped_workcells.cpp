@@ -55,9 +55,7 @@ const PinholeCamera& camera_of(const Workcell& cell, const std::string& name) {
 }
 
 /// The bodies that a camera sees, looking through every second pixel of every second row.
-Names seen(const Workcell& cell, const std::string& camera_name) {
-  const PinholeCamera& camera = camera_of(cell, camera_name);
-  const SimulatedCell simulated = simulated_cell(cell);
+Names seen(const SimulatedCell& simulated, const PinholeCamera& camera) {
   std::vector<float> u, v;
   for (int row = 0; row < camera.intrinsics().height; row += 2) {
     for (int column = 0; column < camera.intrinsics().width; column += 2) {
@@ -72,6 +70,10 @@ Names seen(const Workcell& cell, const std::string& camera_name) {
     if (hits.hit(i)) names.insert(simulated.bodies[hits.object[i]].name);
   }
   return names;
+}
+
+Names seen(const Workcell& cell, const std::string& camera_name) {
+  return seen(simulated_cell(cell), camera_of(cell, camera_name));
 }
 
 bool has_all(const Names& names, std::initializer_list<const char*> wanted) {
@@ -302,8 +304,9 @@ TEST_CASE("castle: five cubes corner to corner, nine cameras") {
   }
   // Each cube is seen from several sides.
   std::map<std::string, int> times;
+  const SimulatedCell simulated = simulated_cell(cell);
   for (const CellCamera& camera : cell.cameras) {
-    for (const std::string& name : seen(cell, camera.name)) ++times[name];
+    for (const std::string& name : seen(simulated, camera.camera)) ++times[name];
   }
   for (const KnownObject& cube : cubes) CHECK(times[cube.name] >= 3);
 }
