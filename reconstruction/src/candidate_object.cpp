@@ -3,14 +3,14 @@
 #include <cmath>
 
 #include "canonical_pose.hpp"
+#include "rigid_motion.hpp"
 
 namespace vantage::detail {
 namespace {
 
 /// The covariance of T * S from that of T: S moves the origin.
 Matrix6d moved_origin(const Matrix6d& covariance, const Eigen::Vector3d& arm) {
-  Matrix6d by_pose = Matrix6d::Identity();
-  by_pose.block<3, 3>(0, 3) << 0, arm.z(), -arm.y(), -arm.z(), 0, arm.x(), arm.y(), -arm.x(), 0;
+  const Matrix6d by_pose = carried_along(arm);
   return by_pose * covariance * by_pose.transpose();
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "rigid_motion.hpp"
 #include "symmetry.hpp"
 
 namespace vantage::detail {
@@ -83,8 +84,7 @@ Evidence evidence_of_pose(const Reading& reading, const SeenPose& seen,
       turned_towards(reading.type(), T_world_object, measured * reading.T_object_feature.inverse());
   const Pose expected = like_measured * reading.T_object_feature;
   const Eigen::Vector3d arm = expected.translation() - T_world_object.translation();
-  Matrix6d by_pose = Matrix6d::Identity();
-  by_pose.block<3, 3>(0, 3) << 0, arm.z(), -arm.y(), -arm.z(), 0, arm.x(), arm.y(), -arm.x(), 0;
+  const Matrix6d by_pose = carried_along(arm);
   Vector6d residual;
   residual.head<3>() = expected.translation() - measured.translation();
   residual.tail<3>() = rotation_vector(expected.rotation() * measured.rotation().transpose());

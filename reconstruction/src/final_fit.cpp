@@ -8,6 +8,7 @@
 #include "canonical_pose.hpp"
 #include "model_error.hpp"
 #include "pose_fit.hpp"
+#include "rigid_motion.hpp"
 #include "symmetry.hpp"
 
 namespace vantage::detail {
@@ -78,26 +79,19 @@ void add_points(const Reading& reading, const Pose& T_world_object, double model
                 camera_jacobian(term, T_world_object));
 }
 
-Eigen::Matrix3d minus_cross(const Eigen::Vector3d& v) {
-  Eigen::Matrix3d m;
-  m << 0, v.z(), -v.y(), -v.z(), 0, v.x(), v.y(), -v.x(), 0;
-  return m;
-}
-
 void add_pose(const Reading& reading, const Pose& T_world_object, ViewResiduals& residuals) {
   const PoseTerm term = pose_term(reading, T_world_object);
   const Pose expected = T_world_object * term.T_body_feature;
   const Eigen::Vector3d t = expected.translation() - term.T_ref_feature.translation();
   const Eigen::Vector3d r =
       rotation_vector(expected.rotation() * term.T_ref_feature.rotation().transpose());
-  Eigen::Matrix<double, 3, 6> move, turn;
-  move << Eigen::Matrix3d::Identity(),
-      minus_cross(expected.translation() - T_world_object.translation());
+  const Eigen::Matrix<double, 3, 6> move =
+      carried_along(expected.translation() - T_world_object.translation()).topRows<3>();
+  Eigen::Matrix<double, 3, 6> turn;
   turn << Eigen::Matrix3d::Zero(), Eigen::Matrix3d::Identity();
-  Eigen::Matrix<double, 3, 6> camera_move;
   const Eigen::Vector3d& camera = reading.sighting->view->T_world_cam->translation();
-  camera_move << -Eigen::Matrix3d::Identity(),
-      -minus_cross(term.T_ref_feature.translation() - camera);
+  const Eigen::Matrix<double, 3, 6> camera_move =
+      -carried_along(term.T_ref_feature.translation() - camera).topRows<3>();
   residuals.add(t, term.sigma_m, move, camera_move);
   residuals.add(r, term.sigma_rad, turn, -turn);
 }

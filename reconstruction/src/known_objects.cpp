@@ -16,9 +16,8 @@ std::vector<KnownObject> known_objects(const Reconstruction& result,
   for (const ReconstructedObject& object : result.objects) {
     const std::string& type = object.type->name;
     std::string name = type;
-    for (int i = 1; of_type[type] > 1 || names.contains(name); ++i) {
+    for (int i = 1; names.contains(name) || (name == type && of_type[type] > 1); ++i) {
       name = fmt::format("{} {}", type, i);
-      if (!names.contains(name)) break;
     }
     names.insert(name);
     KnownObject known{name, object.type->mesh, object.T_world_object,

@@ -38,12 +38,6 @@ Eigen::Vector3d log_of(const Eigen::Quaterniond& q) {
   return sign * (sine > 1e-12 ? 2 * half / sine : 2) * q.vec();
 }
 
-Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& v) {
-  Eigen::Matrix3d m;
-  m << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
-  return m;
-}
-
 Eigen::Matrix<double, 3, 4> step_by_quaternion(const Eigen::Quaterniond& q) {
   // Twice the vector part of dq q*.
   Eigen::Matrix<double, 3, 4> m;

@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <array>
 
+#include "rigid_motion.hpp"
 #include "vantage/raycore/pose.hpp"
 
 namespace vantage::detail {
@@ -19,8 +20,6 @@ Eigen::Quaterniond exp_of(const Eigen::Vector3d& rotation_vector);
 
 /// Of length π at most; near to the identity to full precision.
 Eigen::Vector3d log_of(const Eigen::Quaterniond& q);
-
-Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& v);
 
 /// SE(3) with steps (t, r) as Matrix6d has them: (exp(r) R, translation + t). Rotations are about
 /// the body's origin, so that both halves of a step are nearly independent. Stateless.

@@ -4,17 +4,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "rigid_motion.hpp"
+
 namespace vantage::detail {
 namespace {
 
 constexpr double kSameM = 5e-4, kSameRad = 5e-3;
 constexpr int kSweeps = 10;  // for spheres, which have several axes
-
-Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& v) {
-  Eigen::Matrix3d m;
-  m << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
-  return m;
-}
 
 bool same(const Pose& a, const Pose& b) {
   const Eigen::AngleAxisd turn(Eigen::Matrix3d(a.rotation().transpose() * b.rotation()));

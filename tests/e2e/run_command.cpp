@@ -36,6 +36,14 @@ void write_scene_camera(const fs::path& scene, const nlohmann::json& entry) {
   std::fclose(file);
 }
 
+std::filesystem::path workcells() {
+  return assets() / "workcells";
+}
+
+std::string quoted(const std::filesystem::path& path) {
+  return " '" + path.string() + "'";
+}
+
 fs::path write_scene(const TemporaryFolder& folder) {
   const fs::path scene = folder / "scene";
   fs::create_directories(scene / "depth");

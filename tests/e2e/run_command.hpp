@@ -19,6 +19,12 @@ struct CommandResult {
 /// "timeout -s INT 1".
 CommandResult run_vantage(const std::string& arguments, const std::string& prefix = "");
 
+/// The shipped workcells.
+std::filesystem::path workcells();
+
+/// A path as an argument of `run_vantage`, with a blank before it.
+std::string quoted(const std::filesystem::path& path);
+
 /// A BOP scene with one depth image of a box before a wall, written into `folder`/scene. What is
 /// wrong with it is up to the test.
 std::filesystem::path write_scene(const TemporaryFolder& folder);

@@ -13,18 +13,14 @@ namespace vantage {
 namespace {
 
 using nlohmann::json;
+using test::quoted;
 using test::run_vantage;
 namespace fs = std::filesystem;
 
-const fs::path kWorkcells = fs::path(VANTAGE_E2E_FOLDER) / "../../assets/workcells";
-
-std::string quoted(const fs::path& path) {
-  return " '" + path.string() + "'";
-}
-
 void simulate(const char* cell, const fs::path& folder) {
-  const auto result = run_vantage("simulate" + quoted(kWorkcells / (std::string(cell) + ".yaml")) +
-                                  " -o" + quoted(folder) + " --samples 4");
+  const auto result =
+      run_vantage("simulate" + quoted(test::workcells() / (std::string(cell) + ".yaml")) + " -o" +
+                  quoted(folder) + " --samples 4");
   CAPTURE(result.err);
   REQUIRE(result.exit_code == 0);
 }

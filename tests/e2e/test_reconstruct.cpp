@@ -11,18 +11,14 @@ namespace vantage {
 namespace {
 
 using nlohmann::json;
+using test::quoted;
 using test::run_vantage;
 namespace fs = std::filesystem;
 
-const fs::path kWorkcells = fs::path(VANTAGE_E2E_FOLDER) / "../../assets/workcells";
-
-std::string quoted(const fs::path& path) {
-  return " '" + path.string() + "'";
-}
-
 void simulate(const char* cell, const fs::path& folder, const std::string& options = "") {
-  const auto result = run_vantage("simulate" + quoted(kWorkcells / (std::string(cell) + ".yaml")) +
-                                  " -o" + quoted(folder) + " --samples 4 " + options);
+  const auto result =
+      run_vantage("simulate" + quoted(test::workcells() / (std::string(cell) + ".yaml")) + " -o" +
+                  quoted(folder) + " --samples 4 " + options);
   CAPTURE(result.err);
   REQUIRE(result.exit_code == 0);
 }
@@ -110,7 +106,7 @@ TEST_CASE("a printed board on photographs: one half is found where the other hal
   const auto folder = test::recording("charuco");
   if (!folder) return;
   const auto result = run_vantage("reconstruct" + quoted(*folder) + " --workcell" +
-                                  quoted(kWorkcells / "charuco.yaml") + " --calibration" +
+                                  quoted(test::workcells() / "charuco.yaml") + " --calibration" +
                                   quoted(*folder / "camera.yml") + " --json");
   CAPTURE(result.err);
   REQUIRE(result.exit_code == 0);

@@ -11,14 +11,9 @@
 namespace vantage {
 namespace {
 
+using test::quoted;
 using test::run_vantage;
 namespace fs = std::filesystem;
-
-const fs::path kWorkcells = fs::path(VANTAGE_E2E_FOLDER) / "../../assets/workcells";
-
-std::string quoted(const fs::path& path) {
-  return " '" + path.string() + "'";
-}
 
 /// Every file below a folder, by its path there.
 std::map<std::string, std::string> files_of(const fs::path& folder) {
@@ -32,8 +27,8 @@ std::map<std::string, std::string> files_of(const fs::path& folder) {
 
 test::CommandResult simulate(const char* cell, const fs::path& folder,
                              const std::string& options = "") {
-  return run_vantage("simulate" + quoted(kWorkcells / (std::string(cell) + ".yaml")) + " -o" +
-                     quoted(folder) + " --samples 1 " + options);
+  return run_vantage("simulate" + quoted(test::workcells() / (std::string(cell) + ".yaml")) +
+                     " -o" + quoted(folder) + " --samples 1 " + options);
 }
 
 }  // namespace
@@ -171,11 +166,11 @@ TEST_CASE("what cannot be simulated is refused with the reason, and leaves nothi
 
 TEST_CASE("vantage render draws one camera's view, and contact sheets as PNG and JPEG") {
   const test::TemporaryFolder folder;
-  const std::string duck = quoted(kWorkcells / "duck.yaml");
+  const std::string duck = quoted(test::workcells() / "duck.yaml");
   const fs::path single = folder / "view.png", sheet = folder / "sheet.jpg";
   REQUIRE(run_vantage("render" + duck + " --samples 1 -o" + quoted(single)).exit_code == 0);
   CHECK(read_color(single).width == 640);
-  REQUIRE(run_vantage("render" + duck + quoted(kWorkcells / "wall.yaml") +
+  REQUIRE(run_vantage("render" + duck + quoted(test::workcells() / "wall.yaml") +
                       " --contact-sheet --samples 1 -o" + quoted(sheet))
               .exit_code == 0);
   CHECK(read_color(sheet).width > 600);
