@@ -1,7 +1,6 @@
 #include "vantage/volume/classify.hpp"
 
 #include "known_objects.hpp"
-#include "vantage/raycore/scene_builder.hpp"
 #include "vantage/volume/shadow_volume.hpp"
 
 namespace vantage {
@@ -26,15 +25,20 @@ std::shared_ptr<const Scene> known_scene(const WorldModel& world) {
   return builder.build();
 }
 
-std::shared_ptr<const Scene> occluder_scene(const WorldModel& world, const StateGrid& grid,
-                                            OccluderMode mode) {
-  SceneBuilder builder;
+void add_occluders(const WorldModel& world, const StateGrid& grid, OccluderMode mode,
+                   SceneBuilder& builder) {
   if (mode == OccluderMode::mesh) {
     add_known_objects(world, builder);
     builder.add_mesh(grid.measured_faces());
   } else {
     builder.add_mesh(grid.faces(VoxelState::occupied));
   }
+}
+
+std::shared_ptr<const Scene> occluder_scene(const WorldModel& world, const StateGrid& grid,
+                                            OccluderMode mode) {
+  SceneBuilder builder;
+  add_occluders(world, grid, mode, builder);
   return builder.build();
 }
 

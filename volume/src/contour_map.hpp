@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "camera_box.hpp"
 #include "min_pyramid.hpp"
+#include "vantage/raycore/box_projector.hpp"
 #include "vantage/raycore/camera.hpp"
 
 namespace vantage::detail {

@@ -3,9 +3,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "camera_box.hpp"
 #include "grid_frame.hpp"
 #include "min_pyramid.hpp"
+#include "vantage/raycore/box_projector.hpp"
 #include "vantage/raycore/depth_image.hpp"
 #include "vantage/volume/volume_options.hpp"
 

@@ -2,8 +2,8 @@
 
 #include <tbb/parallel_for.h>
 
-#include "camera_box.hpp"
 #include "depth_bands.hpp"
+#include "vantage/raycore/box_projector.hpp"
 
 namespace vantage::detail {
 namespace {

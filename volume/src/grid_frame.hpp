@@ -3,8 +3,8 @@
 #include <Eigen/Core>
 
 #include "blocks.hpp"
-#include "camera_box.hpp"
 #include "scan_lines.hpp"
+#include "vantage/raycore/box_projector.hpp"
 #include "vantage/raycore/points.hpp"
 
 namespace vantage::detail {

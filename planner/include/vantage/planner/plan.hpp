@@ -6,7 +6,11 @@
 #include <string>
 #include <vector>
 
+#include "vantage/planner/methods.hpp"
+#include "vantage/planner/servo_refiner.hpp"
 #include "vantage/planner/view_candidates.hpp"
+#include "vantage/planner/view_constraints.hpp"
+#include "vantage/planner/view_search.hpp"
 #include "vantage/raycore/api.hpp"
 #include "vantage/raycore/camera.hpp"
 #include "vantage/raycore/stop_token.hpp"
@@ -16,47 +20,103 @@
 
 namespace vantage {
 
+/// How many views are to be planned, one after the other, and when it is enough.
+struct ViewCount {
+  int most = 1;
+  double least_gain_m3 = 0;     ///< a further view that reveals less is not worth it
+  double least_gain_share = 0;  ///< the same as a share of all shadow, 0 to 1
+
+  /// @throws Error bad_input unless 1 <= most <= 1000, and for gains that are negative or not
+  /// finite, or a share above 1.
+  VANTAGE_API void check() const;
+};
+
 /// What to plan for.
 struct PlanRequest {
   Box work_area;
-  Intrinsics intrinsics;             ///< of the movable camera
-  DepthRange range = {};             ///< of the movable camera
-  double voxel_size_m = 0.009375;    ///< the thesis' smallest voxel
-  std::vector<double> radii_m = {};  ///< of the half-spheres; empty: `default_radii_m`
-  int candidates_per_half_sphere = 20;
-  std::optional<Reach> reach = {};
+  Intrinsics intrinsics;           ///< of the movable camera
+  DepthRange range = {};           ///< of the movable camera
+  double voxel_size_m = 0.009375;  ///< the thesis' smallest voxel
+  CandidateSet candidates = production_views();
+  ViewConstraints constraints = {};
+  MethodOptions method = {};
+  ServoOptions servo = {};
+  SearchOptions search = {};
+  ViewCount views = {};
   VolumeOptions volume = {};  ///< how the work area is classified, and what hides from a new view
 };
 
-/// A candidate and what came of it.
-struct ScoredCandidate {
-  ViewCandidate view;
-  std::optional<std::string> rejected;           ///< the reason, if it is not feasible
-  std::optional<std::uint64_t> revealed_voxels;  ///< nothing if rejected, or not reached in time
+/// One of the views to take, in their order.
+struct NextView {
+  RankedView view;
+  std::uint64_t revealed_voxels = 0;  ///< of the shadow that the views before it left
 };
 
 /// The answer. With `stopped` other than none it is partial: the best of what was finished; if not
 /// even the classification was, both grids are null.
 struct Plan {
-  PlanRequest request;                          ///< with the radii that were used
-  std::vector<ScoredCandidate> candidates;      ///< by id
-  std::optional<std::size_t> best;              ///< index; nothing if no candidate was scored
+  PlanRequest request;  ///< as it was used
+  std::string score_unit_name;
+  double score_unit = 1;                        ///< what one step of a `Score` is
+  std::vector<ScoredCandidate> candidates;      ///< by id, as scored for the first view
+  std::vector<RankedView> ranked;               ///< the best of them
+  std::vector<ScoredStep> trace;                ///< the best one's servo iterations
+  std::vector<NextView> views;                  ///< the first is `ranked.front()`
+  std::size_t finished = 0;                     ///< candidates: rejected, scored or surpassed
   std::shared_ptr<const StateGrid> classified;  ///< as the given cameras left it
-  std::shared_ptr<const StateGrid> grid;        ///< with what the best view reveals
+  std::shared_ptr<const StateGrid> grid;        ///< with what all of `views` reveal
   StopReason stopped = StopReason::none;
   double classify_s = 0;
   double score_s = 0;
 
-  /// Volume that a candidate would newly observe, m³.
-  VANTAGE_API std::optional<double> newly_observed_volume_m3(std::size_t candidate) const;
+  const RankedView* best() const { return ranked.empty() ? nullptr : &ranked.front(); }
 };
 
-/// Finds the view that reveals the most shadow: classify, generate candidates, score each with the
-/// voxel method. The best score wins, ties go to the lower id.
+/// Finds the view that a method likes best, and if more are asked for, those to take after it:
+/// classify, generate candidates, reject those that cannot be, search.
+///
+/// Further views are chosen greedily by their joint gain. The voxel method's gain is submodular, so
+/// that what k views reveal is at least 1 - 1/e of the most that any k of the candidates (and their
+/// servo iterations) can (G. Nemhauser, L. Wolsey and M. Fisher, 1978); earlier gains bound later
+/// ones, which is what makes it fast (M. Minoux, 1978). Other methods search anew in the shadow
+/// that the views before left.
 ///
 /// Runs in the caller's task arena; the plan is the same at any number of threads, but for times.
-/// @throws Error bad_input as `classify`, `PinholeCamera` and `half_sphere_candidates` do.
+/// @throws Error bad_input as `classify`, `PinholeCamera`, `view_candidates`, `make_view_scorer`
+/// and the options' checks do.
 VANTAGE_API Plan plan_next_view(const WorldModel& world, const PlanRequest& request,
                                 const StopToken& stop = {});
+
+/// The same for a work area that is classified already.
+/// @param classified of `world`; never null.
+VANTAGE_API Plan plan_next_view(const WorldModel& world,
+                                std::shared_ptr<const StateGrid> classified,
+                                const PlanRequest& request, const StopToken& stop = {});
+
+/// What a candidate would reveal of one region of the shadow.
+struct RegionGain {
+  std::size_t region = 0;  ///< index into `ShadowRegions::list`
+  std::uint64_t voxels = 0, revealed = 0;
+};
+
+/// Why a candidate has the score that it has.
+struct ViewExplanation {
+  ViewCandidate candidate;
+  Rejection rejected = Rejection::none;  ///< then the rest is empty
+  std::vector<ScoredStep> trace;         ///< its servo iterations, each with its exact score
+  std::size_t best_step = 0;
+  std::vector<ScoreTerm> terms;       ///< of the best step
+  std::uint64_t revealed_voxels = 0;  ///< by the best step
+  std::vector<RegionGain> regions;    ///< of which something is revealed; largest gain first
+  std::string verdict;                ///< a sentence: why it won, or why it lost and by how much
+};
+
+/// Explains one candidate of a plan.
+/// @throws Error bad_input for an id that the plan does not have, or a plan without a grid.
+VANTAGE_API ViewExplanation explain_view(const WorldModel& world, const Plan& plan, int id);
+
+/// What the voxel method gives for a pose: shadow voxels of `plan.classified` that it sees.
+VANTAGE_API std::uint64_t revealed_voxels(const WorldModel& world, const Plan& plan,
+                                          const Pose& T_world_cam);
 
 }  // namespace vantage

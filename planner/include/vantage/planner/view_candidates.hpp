@@ -1,14 +1,12 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <optional>
-#include <string>
+#include <variant>
 #include <vector>
 
 #include "vantage/raycore/api.hpp"
 #include "vantage/raycore/box.hpp"
 #include "vantage/raycore/pose.hpp"
-#include "vantage/volume/state_grid.hpp"
 
 namespace vantage {
 
@@ -18,37 +16,66 @@ struct ViewCandidate {
   Pose T_world_cam;
 };
 
+/// Directions of view from one position: towards the work area's centre, and in rings around that,
+/// 8 in the first, 16 in the second …, `step_rad` apart. Two rings make 25 directions.
+struct ViewFan {
+  int rings = 0;
+  double step_rad = 0.17453292519943295;  ///< 10°
+};
+
+/// Positions on half-spheres around the work area's centre (thesis 7.2.1).
+struct HalfSpheres {
+  std::vector<double> radii_m = {};  ///< empty: `default_radii_m`, two of them, or one per count
+  std::vector<int> counts = {20};  ///< positions: one number for all half-spheres, or one for each
+  ViewFan fan = {};
+};
+
+/// The thesis' sets: `production` is 2 × 20 positions that look at the centre, `full` 1,369 on
+/// three half-spheres, with 25 directions each: 34,225 views.
+VANTAGE_API HalfSpheres production_views();
+VANTAGE_API HalfSpheres full_views();
+
+/// Positions in a box, world frame: counts.x() × counts.y() × counts.z() of them, from face to face
+/// (in the middle, along an axis with one).
+struct BoxGrid {
+  Box box;
+  Eigen::Vector3i counts = {1, 1, 1};
+  ViewFan fan = {};
+};
+
+/// Poses around a path that the robot goes along anyway: at every `step_m` of the way and at its
+/// ends the pose itself (interpolated), and `count` poses on a sphere of `radius_m` around it that
+/// look at the work area's centre.
+struct AroundPath {
+  std::vector<Pose> path = {};  ///< T_world_cam, at least one
+  double step_m = 0.05;
+  double radius_m = 0.05;
+  int count = 6;
+};
+
+/// Poses from somewhere else; ids count up from 0.
+struct ViewList {
+  std::vector<Pose> poses = {};
+};
+
+using CandidateSet = std::variant<HalfSpheres, BoxGrid, AroundPath, ViewList>;
+
+/// The candidates of a set; ids count up from 0, and those that share a position follow each other.
+/// @throws Error bad_input for counts that are not positive or make more than 4,000,000 views,
+/// radii and steps that are not positive and finite, fans of more than 50 rings or wider than π, a
+/// list or path without poses.
+VANTAGE_API std::vector<ViewCandidate> view_candidates(const CandidateSet& set,
+                                                       const Box& work_area);
+
 /// `count` unit vectors with z > 0, spread evenly over the half-sphere: rings of equal polar
 /// distance, with points in proportion to each ring's circumference (M. Deserno, "How to generate
 /// equidistributed points on the surface of a sphere", 2004). From the zenith down.
 /// @throws Error bad_input unless 1 <= count <= 1,000,000.
 VANTAGE_API std::vector<Eigen::Vector3d> half_sphere_directions(int count);
 
-/// Radii of two half-spheres around the work area's centre that keep the camera outside it, and its
-/// whole extent in a usual camera's view from the outer one: 1.5 and 2.5 times half its diagonal.
-VANTAGE_API std::vector<double> default_radii_m(const Box& work_area);
-
-/// Cameras on half-spheres that look at `centre` (thesis 7.2.1). With two radii and a count of 20
-/// it is the thesis' production set. Ids count up from 0, half-sphere by half-sphere.
-/// @throws Error bad_input for a radius that is not positive and finite, or a wrong count.
-VANTAGE_API std::vector<ViewCandidate> half_sphere_candidates(const Eigen::Vector3d& centre,
-                                                              const std::vector<double>& radii_m,
-                                                              int count_per_half_sphere);
-
-/// Where the robot can bring the camera's centre: a spherical shell around its base, world frame.
-struct Reach {
-  Eigen::Vector3d base_m = Eigen::Vector3d::Zero();
-  double min_m = 0;
-  double max_m = 0;
-
-  /// @throws Error bad_input unless all is finite and 0 <= min_m < max_m.
-  VANTAGE_API void check(std::string_view where) const;
-};
-
-/// Why a camera cannot be at a pose; nothing if it can. The reasons are `below the floor` (z <= 0),
-/// `out of reach`, `inside occupied volume` and `inside shadow`, tested in this order.
-VANTAGE_API std::optional<std::string> reason_to_reject(const ViewCandidate& candidate,
-                                                        const std::optional<Reach>& reach,
-                                                        const StateGrid& grid);
+/// Radii of half-spheres around the work area's centre that keep the camera outside it, and its
+/// whole extent in a usual camera's view from the outer one: evenly spaced from 1.5 to 2.5 times
+/// half its diagonal; for one, 2 times.
+VANTAGE_API std::vector<double> default_radii_m(const Box& work_area, int count = 2);
 
 }  // namespace vantage

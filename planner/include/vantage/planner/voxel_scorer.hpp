@@ -1,41 +1,36 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
-#include <optional>
 #include <vector>
 
+#include "vantage/planner/planning_scene.hpp"
+#include "vantage/planner/view_scorer.hpp"
+#include "vantage/planner/visible_points.hpp"
 #include "vantage/raycore/api.hpp"
-#include "vantage/raycore/camera.hpp"
-#include "vantage/raycore/points.hpp"
-#include "vantage/raycore/scene.hpp"
-#include "vantage/raycore/stop_token.hpp"
-#include "vantage/volume/state_grid.hpp"
 
 namespace vantage {
 
 /// The voxel method (thesis 7.2.5): a view is worth the volume of the shadow voxels whose centres
 /// it would see past everything occupied. Shadow itself hides nothing.
-///
-/// Immutable and thread-safe; runs in the caller's task arena. Counts are integers, so that the
-/// score is the same at any number of threads.
-class VANTAGE_API VoxelScorer {
+class VANTAGE_API VoxelScorer final : public ViewScorer {
  public:
-  /// `occluders`: everything occupied, see `occluder_scene`.
-  VoxelScorer(const StateGrid& grid, std::shared_ptr<const Scene> occluders);
+  explicit VoxelScorer(const PlanningScene& scene);
 
-  /// The number of shadow voxels that `camera` sees; nothing if `stop` stopped the count.
-  std::optional<std::uint64_t> count_revealed(const PinholeCamera& camera,
-                                              const StopToken& stop = {}) const;
+  std::string_view name() const noexcept override { return "voxel"; }
+  double unit() const noexcept override { return voxel_volume_m3_; }
+  std::string_view unit_name() const noexcept override { return "m³"; }
+  Score upper_bound(const PinholeCamera& view) const override;
+  void score(std::span<const PinholeCamera> views, std::span<const Score> needed,
+             std::span<ScoreBound> results, const StopToken& stop = {}) const override;
+  using ViewScorer::score;
+  std::vector<ScoreTerm> terms(const PinholeCamera& view) const override;
 
   /// 1 or 0 for every shadow voxel, in the order of `StateGrid::centres`.
-  std::vector<std::uint8_t> revealed(const PinholeCamera& camera) const;
-
-  std::size_t shadow_voxels() const noexcept { return shadow_.size(); }
+  std::vector<std::uint8_t> revealed(const PinholeCamera& view) const;
 
  private:
-  Points shadow_;
-  std::shared_ptr<const Scene> occluders_;
+  double voxel_volume_m3_;
+  VisiblePoints points_;
 };
 
 }  // namespace vantage

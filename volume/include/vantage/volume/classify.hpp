@@ -4,6 +4,7 @@
 
 #include "vantage/raycore/api.hpp"
 #include "vantage/raycore/scene.hpp"
+#include "vantage/raycore/scene_builder.hpp"
 #include "vantage/raycore/stop_token.hpp"
 #include "vantage/raycore/world_model.hpp"
 #include "vantage/volume/grid_geometry.hpp"
@@ -48,5 +49,9 @@ VANTAGE_API std::shared_ptr<const Scene> known_scene(const WorldModel& world);
 VANTAGE_API std::shared_ptr<const Scene> occluder_scene(const WorldModel& world,
                                                         const StateGrid& grid,
                                                         OccluderMode mode = OccluderMode::mesh);
+
+/// Adds the objects of `occluder_scene` to a scene that is to have more in it.
+VANTAGE_API void add_occluders(const WorldModel& world, const StateGrid& grid, OccluderMode mode,
+                               SceneBuilder& builder);
 
 }  // namespace vantage

@@ -1,9 +1,9 @@
-#include "camera_box.hpp"
+#include "vantage/raycore/box_projector.hpp"
 
 #include <algorithm>
 #include <limits>
 
-namespace vantage::detail {
+namespace vantage {
 namespace {
 
 /// Smallest and largest value of a linear function over a box.
@@ -66,4 +66,4 @@ BoxInView BoxProjector::project(const Extent& box, double margin_m) const {
   return view;
 }
 
-}  // namespace vantage::detail
+}  // namespace vantage

@@ -2,9 +2,10 @@
 
 #include <Eigen/Core>
 
+#include "vantage/raycore/api.hpp"
 #include "vantage/raycore/camera.hpp"
 
-namespace vantage::detail {
+namespace vantage {
 
 /// Rays and projections in float err by no more than this part of the largest coordinate on their
 /// way: some 1e-7 each for the rounding of their ends, of the triangles and of the test.
@@ -31,9 +32,9 @@ struct BoxInView {
   ImageRect rect{};  ///< clipped to the image
 };
 
-/// Projects boxes into one camera. Boxes are widened by `margin_m`, so that what is certified also
-/// holds for rays and projections in float.
-class BoxProjector {
+/// Projects boxes into one camera; immutable, thread-safe. Boxes are widened by `margin_m`, so that
+/// what is certified also holds for rays and projections in float.
+class VANTAGE_API BoxProjector {
  public:
   explicit BoxProjector(const PinholeCamera& camera);
 
@@ -47,4 +48,4 @@ class BoxProjector {
   Eigen::Matrix3d R_cam_world_;
 };
 
-}  // namespace vantage::detail
+}  // namespace vantage

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "vantage/planner/planning_scene.hpp"
+#include "vantage/planner/view_scorer.hpp"
+#include "vantage/planner/visible_points.hpp"
+#include "vantage/raycore/api.hpp"
+#include "vantage/raycore/world_model.hpp"
+
+namespace vantage {
+
+/// The light method (thesis 7.1): the cameras are lamps, and a view is worth the area of the known
+/// objects' and static structures' surfaces in the work area that no camera lights and it would.
+///
+/// The thesis never built it, because of its flaw: an object that is well known is dark on its
+/// other side all the same, and what nobody knows casts no shade. It is here to show just that.
+class VANTAGE_API LightScorer final : public ViewScorer {
+ public:
+  LightScorer(const PlanningScene& scene, const WorldModel& world);
+
+  std::string_view name() const noexcept override { return "light"; }
+  double unit() const noexcept override { return area_per_point_m2_; }
+  std::string_view unit_name() const noexcept override { return "m²"; }
+  Score upper_bound(const PinholeCamera& view) const override;
+  void score(std::span<const PinholeCamera> views, std::span<const Score> needed,
+             std::span<ScoreBound> results, const StopToken& stop = {}) const override;
+  using ViewScorer::score;
+  std::vector<ScoreTerm> terms(const PinholeCamera& view) const override;
+
+ private:
+  double area_per_point_m2_;
+  VisiblePoints dark_;
+};
+
+}  // namespace vantage

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "vantage/planner/planning_scene.hpp"
+#include "vantage/planner/view_scorer.hpp"
+#include "vantage/raycore/api.hpp"
+#include "vantage/raycore/world_model.hpp"
+
+namespace vantage {
+
+/// Which method scores the views, and how.
+struct MethodOptions {
+  std::string name = "voxel";
+  double depth_power = 6;  ///< of `shadow`; 0, 3 and 6 are the thesis' D0, D3 and D6
+};
+
+/// The names that `make_view_scorer` knows.
+VANTAGE_API const std::vector<std::string>& method_names();
+
+/// A method by its name.
+/// @param scene made from `world`.
+/// @param range of the views that are to be scored.
+/// @throws Error bad_input for a name that is none of `method_names()`, and for options that do not
+/// make sense.
+VANTAGE_API std::unique_ptr<const ViewScorer> make_view_scorer(const MethodOptions& options,
+                                                               const PlanningScene& scene,
+                                                               const WorldModel& world,
+                                                               const DepthRange& range);
+
+}  // namespace vantage

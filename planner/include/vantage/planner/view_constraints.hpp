@@ -1,0 +1,104 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "vantage/planner/planning_scene.hpp"
+#include "vantage/raycore/api.hpp"
+#include "vantage/raycore/box.hpp"
+#include "vantage/raycore/camera.hpp"
+#include "vantage/raycore/pose.hpp"
+
+namespace vantage {
+
+/// Where the robot can bring the camera's centre: a spherical shell around its base, world frame.
+struct Reach {
+  Eigen::Vector3d base_m = Eigen::Vector3d::Zero();
+  double min_m = 0;
+  double max_m = 0;
+
+  /// @throws Error bad_input unless all is finite and 0 <= min_m < max_m.
+  VANTAGE_API void check(std::string_view where) const;
+};
+
+/// Which cells of a grid in space the robot can bring the camera's centre to; none outside it.
+struct ReachMap {
+  Eigen::Vector3d origin_m = Eigen::Vector3d::Zero();  ///< lower corner of cell (0, 0, 0), world
+  double cell_m = 0;
+  Eigen::Vector3i size = Eigen::Vector3i::Zero();  ///< cells along each axis
+  std::vector<std::uint8_t> reachable;             ///< [i, j, k], k fastest; not 0: reachable
+
+  VANTAGE_API bool contains(const Eigen::Vector3d& p_world) const;
+  /// @throws Error bad_input unless all is finite, sizes are positive, and `reachable` fits them.
+  VANTAGE_API void check(std::string_view where) const;
+};
+
+/// Limits where the camera may look: its optical axis is within `half_angle_rad` of `axis`.
+struct ViewCone {
+  Eigen::Vector3d axis = {0, 0, -1};  ///< world frame; any length but zero
+  double half_angle_rad = 0;
+
+  /// @throws Error bad_input unless all is finite, the axis not zero, 0 < half_angle_rad <= π.
+  VANTAGE_API void check(std::string_view where) const;
+};
+
+/// The camera's housing around its centre.
+struct SphereBody {
+  double radius_m = 0;
+};
+/// The same as a box in the camera's frame (x right, y down, z forward).
+struct BoxBody {
+  Box box;
+};
+
+/// Where the camera may be. All limits apply at once.
+struct ViewConstraints {
+  std::optional<Reach> reach = {};
+  std::optional<Box> reach_box = {};               ///< world frame
+  std::shared_ptr<const ReachMap> reach_map = {};  ///< null: none
+  std::optional<ViewCone> view_cone = {};
+  double clearance_m = 0;  ///< least distance of the body from all that is occupied
+  std::variant<std::monostate, SphereBody, BoxBody> body = {};  ///< none: the centre alone
+
+  /// @throws Error bad_input as its parts do; for a clearance or a radius that is negative or not
+  /// finite.
+  VANTAGE_API void check() const;
+};
+
+/// Why a camera cannot be at a pose, in the order in which it is tested.
+enum class Rejection : std::uint8_t {
+  none,
+  below_the_floor,  ///< z <= 0
+  out_of_reach,
+  outside_the_view_cone,
+  inside_occupied_volume,
+  inside_shadow,
+  too_close_to_shadow,    ///< closer to it than the camera's near depth: it would not be measured
+  too_close_to_occupied,  ///< the body is closer to it than the clearance, or touches it
+};
+/// In words, e.g. "out of reach".
+VANTAGE_API std::string_view to_text(Rejection reason);
+
+/// Tests poses against constraints. Immutable; thread-safe.
+///
+/// Distances are to the surfaces of `PlanningScene`; what is nearer to a surface than 1e-6 of the
+/// scene's coordinates is a matter of rounding.
+class VANTAGE_API ViewChecker {
+ public:
+  /// @throws Error as `ViewConstraints::check` does.
+  ViewChecker(const ViewConstraints& constraints, PlanningScene scene, const DepthRange& range);
+
+  Rejection check(const Pose& T_world_cam) const;
+
+ private:
+  ViewConstraints constraints_;
+  PlanningScene scene_;
+  DepthRange range_;
+};
+
+}  // namespace vantage

@@ -1,0 +1,90 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "vantage/planner/servo_refiner.hpp"
+#include "vantage/planner/view_candidates.hpp"
+#include "vantage/planner/view_constraints.hpp"
+#include "vantage/planner/view_scorer.hpp"
+#include "vantage/raycore/api.hpp"
+#include "vantage/raycore/camera.hpp"
+#include "vantage/raycore/stop_token.hpp"
+
+namespace vantage {
+
+/// What a journey costs: a view's score counts exp(-weight · distance) times, with the straight
+/// distance from where the camera is (H. Gonzalez-Banos and J.-C. Latombe, "Navigation strategies
+/// for exploring indoor environments", 2002).
+struct TravelCost {
+  double weight_per_m = 0;
+  Eigen::Vector3d from_m = Eigen::Vector3d::Zero();  ///< where the camera is now
+
+  /// @throws Error bad_input unless all is finite and the weight not negative.
+  VANTAGE_API void check() const;
+};
+
+/// How the best view is looked for.
+struct SearchOptions {
+  int ranked = 10;  ///< so many of the best are found for certain, in their order
+  std::optional<TravelCost> travel = {};
+
+  /// @throws Error bad_input unless 1 <= ranked, and as `TravelCost::check` does.
+  VANTAGE_API void check() const;
+};
+
+/// A candidate and what came of it.
+struct ScoredCandidate {
+  ViewCandidate view;
+  Rejection rejected = Rejection::none;
+  ScoreBound score = {};    ///< the best of its servo iterations, before travel; at most that
+  int servo_iteration = 0;  ///< of the best one; of use if the score is exact
+};
+
+/// One servo iteration of a candidate.
+struct ScoredStep {
+  ServoStep step;
+  ScoreBound score;
+};
+
+/// One of the best candidates.
+struct RankedView {
+  std::size_t candidate = 0;  ///< index
+  Pose T_world_cam;           ///< of its best servo iteration, the first one among equals
+  int servo_iteration = 0;
+  Score score = 0;
+  Score utility = 0;  ///< the score, less what the journey costs
+};
+
+struct SearchResult {
+  std::vector<ScoredCandidate> candidates;  ///< in the order given
+  std::vector<RankedView> ranked;           ///< the best first; among equals the lower id
+  std::size_t finished = 0;                 ///< candidates that were rejected, scored or surpassed
+  StopReason stopped = StopReason::none;    ///< why, if not all were finished
+};
+
+/// Finds the best of many candidates, and certainly the very one that scoring each of them in full
+/// would find. Immutable; thread-safe.
+class VANTAGE_API ViewSearch {
+ public:
+  /// @param servo null: candidates are scored as they are.
+  ViewSearch(std::shared_ptr<const ViewScorer> scorer, std::shared_ptr<const ViewChecker> checker,
+             std::shared_ptr<const ServoRefiner> servo, const PinholeCamera& camera,
+             const SearchOptions& options);
+
+  /// Runs in the caller's task arena; the result is the same at any number of threads, unless it
+  /// was stopped. Candidates that share a position are scored together if they follow each other.
+  SearchResult run(std::span<const ViewCandidate> candidates, const StopToken& stop = {}) const;
+
+  /// A candidate's servo iterations, each with its exact score.
+  std::vector<ScoredStep> trace(const ViewCandidate& candidate) const;
+
+ private:
+  struct Impl;
+  std::shared_ptr<const Impl> impl_;
+};
+
+}  // namespace vantage

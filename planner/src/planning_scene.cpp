@@ -1,0 +1,20 @@
+#include "vantage/planner/planning_scene.hpp"
+
+#include "vantage/raycore/scene_builder.hpp"
+#include "vantage/volume/classify.hpp"
+
+namespace vantage {
+
+PlanningScene::PlanningScene(const WorldModel& world, std::shared_ptr<const StateGrid> grid,
+                             OccluderMode mode)
+    : grid_(std::move(grid)),
+      occluders_(occluder_scene(world, *grid_, mode)),
+      shadow_faces_(std::make_shared<const TriangleMesh>(grid_->faces(VoxelState::shadow))),
+      shadow_centres_(std::make_shared<const Points>(grid_->centres(VoxelState::shadow))) {
+  SceneBuilder builder;
+  add_occluders(world, *grid_, mode, builder);
+  builder.add_mesh(*shadow_faces_);
+  surfaces_ = builder.build();
+}
+
+}  // namespace vantage
