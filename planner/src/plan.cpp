@@ -1,8 +1,12 @@
 #include "vantage/planner/plan.hpp"
 
-#include <chrono>
+#include <fmt/format.h>
 
-#include "vantage/planner/voxel_scorer.hpp"
+#include <chrono>
+#include <cmath>
+
+#include "next_views.hpp"
+#include "planning_tools.hpp"
 #include "vantage/raycore/error.hpp"
 #include "vantage/volume/classify.hpp"
 
@@ -13,68 +17,85 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-void score_candidates(const VoxelScorer& scorer, const PinholeCamera& camera, const StopToken& stop,
-                      Plan& plan) {
-  for (std::size_t i = 0; i < plan.candidates.size() && !stop.stop_requested(); ++i) {
-    ScoredCandidate& candidate = plan.candidates[i];
-    if (!candidate.rejected) {
-      candidate.revealed_voxels =
-          scorer.count_revealed(camera.moved_to(candidate.view.T_world_cam), stop);
-    }
-    if (candidate.rejected || candidate.revealed_voxels) stop.advance(1);
-    const bool better =
-        candidate.revealed_voxels &&
-        (!plan.best || *candidate.revealed_voxels > *plan.candidates[*plan.best].revealed_voxels);
-    if (better) plan.best = i;
-  }
+/// What is wrong with a request is said before any work is done.
+void check(const PlanRequest& request) {
+  (void)PinholeCamera(request.intrinsics, Pose(), request.range, "movable camera");
+  request.constraints.check();
+  request.servo.check();
+  request.search.check();
+  request.views.check();
+  request.method.check();
 }
 
-/// Whether every candidate was either rejected or scored.
-bool complete(const Plan& plan) {
-  for (const ScoredCandidate& candidate : plan.candidates) {
-    if (!candidate.rejected && !candidate.revealed_voxels) return false;
+void search(const WorldModel& world, const std::vector<ViewCandidate>& views, Plan& plan,
+            const StopToken& stop) {
+  const detail::PlanningTools tools(world, plan.classified, plan.request);
+  plan.score_unit = tools.scorer()->unit();
+  plan.score_unit_name = tools.scorer()->unit_name();
+  SearchResult found = tools.search().run(views, stop);
+  plan.candidates = std::move(found.candidates);
+  plan.ranked = std::move(found.ranked);
+  plan.finished = found.finished;
+  plan.stopped = found.stopped;
+  if (plan.ranked.empty()) return;
+  for (RankedView& view : plan.ranked) {
+    view.revealed_voxels = tools.voxels().score(tools.camera().moved_to(view.T_world_cam)).score;
   }
-  return plan.grid != nullptr;
+  plan.trace = tools.search().trace(plan.candidates[plan.ranked.front().candidate].view, stop);
+  detail::add_view(tools.voxels(), tools.camera(), plan.ranked.front(), plan);
+  if (plan.request.views.most > 1) detail::add_next_views(world, tools, plan, stop);
+}
+
+Plan plan_of(const PlanRequest& request, const std::vector<ViewCandidate>& views) {
+  Plan plan{.request = request};
+  for (const ViewCandidate& view : views) plan.candidates.push_back({view});
+  return plan;
+}
+
+void search_classified(const WorldModel& world, const std::vector<ViewCandidate>& views, Plan& plan,
+                       const StopToken& stop) {
+  const auto start = std::chrono::steady_clock::now();
+  plan.grid = plan.classified;
+  search(world, views, plan, stop);
+  plan.score_s = seconds_since(start);
 }
 
 }  // namespace
 
-std::optional<double> Plan::newly_observed_volume_m3(std::size_t candidate) const {
-  const std::optional<std::uint64_t>& voxels = candidates.at(candidate).revealed_voxels;
-  if (!voxels) return std::nullopt;
-  return double(*voxels) * grid->geometry().voxel_volume_m3();
+void ViewCount::check() const {
+  const bool gains = std::isfinite(least_gain_m3) && least_gain_m3 >= 0 && least_gain_share >= 0 &&
+                     least_gain_share <= 1;
+  if (most >= 1 && most <= 1000 && gains) return;
+  throw bad_input("views",
+                  fmt::format("{} views with a gain of at least {} m³ and {} of the shadow; "
+                              "expected 1 to 1000 views, a volume that is not negative, and a "
+                              "share from 0 to 1",
+                              most, least_gain_m3, least_gain_share));
 }
 
 Plan plan_next_view(const WorldModel& world, const PlanRequest& request, const StopToken& stop) {
-  Plan plan{request, {}, {}, nullptr, nullptr};
-  if (plan.request.radii_m.empty()) plan.request.radii_m = default_radii_m(request.work_area);
-  if (request.reach) request.reach->check("reach");
-  const PinholeCamera camera(request.intrinsics, Pose(), request.range, "movable camera");
+  check(request);
   const GridGeometry geometry = GridGeometry::covering(request.work_area, request.voxel_size_m);
-  const std::vector<ViewCandidate> views = half_sphere_candidates(
-      request.work_area.centre(), plan.request.radii_m, request.candidates_per_half_sphere);
-  for (const ViewCandidate& view : views) plan.candidates.push_back({view, {}, {}});
-
+  const std::vector<ViewCandidate> views = view_candidates(request.candidates, request.work_area);
+  Plan plan = plan_of(request, views);
   const auto start = std::chrono::steady_clock::now();
-  plan.grid = plan.classified = classify(world, geometry, request.volume, stop);
+  plan.classified = classify(world, geometry, request.volume, stop);
   plan.classify_s = seconds_since(start);
-  if (plan.grid != nullptr) {
-    const auto scoring = std::chrono::steady_clock::now();
-    stop.expect(plan.candidates.size());
-    for (ScoredCandidate& candidate : plan.candidates) {
-      candidate.rejected = reason_to_reject(candidate.view, request.reach, *plan.grid);
-    }
-    const VoxelScorer scorer(*plan.grid,
-                             occluder_scene(world, *plan.grid, request.volume.occluders));
-    score_candidates(scorer, camera, stop, plan);
-    if (plan.best) {
-      const Pose& pose = plan.candidates[*plan.best].view.T_world_cam;
-      plan.grid = plan.grid->with_revealed(scorer.revealed(camera.moved_to(pose)));
-    }
-    plan.score_s = seconds_since(scoring);
+  if (plan.classified == nullptr) {
+    plan.stopped = stop.reason();
+  } else {
+    search_classified(world, views, plan, stop);
   }
-  // A stop that came after the last score took nothing away.
-  if (!complete(plan)) plan.stopped = stop.reason();
+  return plan;
+}
+
+Plan plan_next_view(const WorldModel& world, std::shared_ptr<const StateGrid> classified,
+                    const PlanRequest& request, const StopToken& stop) {
+  check(request);
+  const std::vector<ViewCandidate> views = view_candidates(request.candidates, request.work_area);
+  Plan plan = plan_of(request, views);
+  plan.classified = std::move(classified);
+  search_classified(world, views, plan, stop);
   return plan;
 }
 

@@ -15,6 +15,10 @@ namespace vantage {
 struct MethodOptions {
   std::string name = "voxel";
   double depth_power = 6;  ///< of `shadow`; 0, 3 and 6 are the thesis' D0, D3 and D6
+
+  /// @throws Error bad_input for a name that is none of `method_names()`, and a power that is not
+  /// from 0 to 16.
+  VANTAGE_API void check() const;
 };
 
 /// The names that `make_view_scorer` knows.
@@ -23,8 +27,7 @@ VANTAGE_API const std::vector<std::string>& method_names();
 /// A method by its name.
 /// @param scene made from `world`.
 /// @param range of the views that are to be scored.
-/// @throws Error bad_input for a name that is none of `method_names()`, and for options that do not
-/// make sense.
+/// @throws Error as `MethodOptions::check` does.
 VANTAGE_API std::unique_ptr<const ViewScorer> make_view_scorer(const MethodOptions& options,
                                                                const PlanningScene& scene,
                                                                const WorldModel& world,

@@ -56,15 +56,15 @@ struct NextView {
 /// even the classification was, both grids are null.
 struct Plan {
   PlanRequest request;  ///< as it was used
-  std::string score_unit_name;
-  double score_unit = 1;                        ///< what one step of a `Score` is
-  std::vector<ScoredCandidate> candidates;      ///< by id, as scored for the first view
-  std::vector<RankedView> ranked;               ///< the best of them
-  std::vector<ScoredStep> trace;                ///< the best one's servo iterations
-  std::vector<NextView> views;                  ///< the first is `ranked.front()`
-  std::size_t finished = 0;                     ///< candidates: rejected, scored or surpassed
-  std::shared_ptr<const StateGrid> classified;  ///< as the given cameras left it
-  std::shared_ptr<const StateGrid> grid;        ///< with what all of `views` reveal
+  std::string score_unit_name = {};
+  double score_unit = 1;                             ///< what one step of a `Score` is
+  std::vector<ScoredCandidate> candidates = {};      ///< by id, as scored for the first view
+  std::vector<RankedView> ranked = {};               ///< the best of them
+  std::vector<ScoredStep> trace = {};                ///< the best one's servo iterations
+  std::vector<NextView> views = {};                  ///< the first is `ranked.front()`
+  std::size_t finished = 0;                          ///< candidates: rejected, scored or surpassed
+  std::shared_ptr<const StateGrid> classified = {};  ///< as the given cameras left it
+  std::shared_ptr<const StateGrid> grid = {};        ///< with what all of `views` reveal
   StopReason stopped = StopReason::none;
   double classify_s = 0;
   double score_s = 0;
@@ -103,12 +103,12 @@ struct RegionGain {
 struct ViewExplanation {
   ViewCandidate candidate;
   Rejection rejected = Rejection::none;  ///< then the rest is empty
-  std::vector<ScoredStep> trace;         ///< its servo iterations, each with its exact score
+  std::vector<ScoredStep> trace = {};    ///< its servo iterations, each with its exact score
   std::size_t best_step = 0;
-  std::vector<ScoreTerm> terms;       ///< of the best step
-  std::uint64_t revealed_voxels = 0;  ///< by the best step
-  std::vector<RegionGain> regions;    ///< of which something is revealed; largest gain first
-  std::string verdict;                ///< a sentence: why it won, or why it lost and by how much
+  std::vector<ScoreTerm> terms = {};     ///< of the best step
+  std::uint64_t revealed_voxels = 0;     ///< by the best step
+  std::vector<RegionGain> regions = {};  ///< of which something is revealed; largest gain first
+  std::string verdict = {};              ///< a sentence: why it won, or why it lost and by how much
 };
 
 /// Explains one candidate of a plan.

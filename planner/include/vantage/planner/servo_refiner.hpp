@@ -69,6 +69,8 @@ class VANTAGE_API ServoRefiner {
   std::vector<ServoStep> path(const Pose& T_world_cam) const;
 
  private:
+  std::optional<ServoStep> step(const PinholeCamera& camera, const ShadowBounds& bounds) const;
+
   std::shared_ptr<const ShadowView> view_;
   std::shared_ptr<const ViewChecker> checker_;
   PinholeCamera camera_;

@@ -56,7 +56,8 @@ struct RankedView {
   Pose T_world_cam;           ///< of its best servo iteration, the first one among equals
   int servo_iteration = 0;
   Score score = 0;
-  Score utility = 0;  ///< the score, less what the journey costs
+  Score utility = 0;                                  ///< the score, less what the journey costs
+  std::optional<std::uint64_t> revealed_voxels = {};  ///< what the voxel method says; set by a plan
 };
 
 struct SearchResult {
@@ -79,8 +80,9 @@ class VANTAGE_API ViewSearch {
   /// was stopped. Candidates that share a position are scored together if they follow each other.
   SearchResult run(std::span<const ViewCandidate> candidates, const StopToken& stop = {}) const;
 
-  /// A candidate's servo iterations, each with its exact score.
-  std::vector<ScoredStep> trace(const ViewCandidate& candidate) const;
+  /// A candidate's servo iterations, each with its exact score; nothing known where `stop` came
+  /// first. Runs in the caller's task arena.
+  std::vector<ScoredStep> trace(const ViewCandidate& candidate, const StopToken& stop = {}) const;
 
  private:
   struct Impl;

@@ -1,0 +1,49 @@
+#include "planning_tools.hpp"
+
+#include "vantage/planner/shadow_scorer.hpp"
+
+namespace vantage::detail {
+namespace {
+
+/// The servo's view may be the scorer itself.
+std::shared_ptr<const ShadowView> shadow_view(const std::shared_ptr<const ViewScorer>& scorer,
+                                              const PlanningScene& scene, const DepthRange& range) {
+  if (auto view = std::dynamic_pointer_cast<const ShadowView>(scorer)) return view;
+  return std::make_shared<const ShadowScorer>(scene, range, 0);
+}
+
+}  // namespace
+
+Eigen::Vector3d shadow_centre(const PlanningScene& scene) {
+  const PointsView points = scene.shadow_centres();
+  if (points.size == 0) {
+    const GridGeometry& geometry = scene.grid().geometry();
+    return 0.5 * (geometry.corner({0, 0, 0}) + geometry.corner(geometry.size()));
+  }
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (std::size_t i = 0; i < points.size; ++i) sum += points[i].cast<double>();
+  return sum / double(points.size);
+}
+
+PlanningTools::PlanningTools(const WorldModel& world, std::shared_ptr<const StateGrid> grid,
+                             const PlanRequest& request)
+    : options_(request.search),
+      tools_{nullptr, nullptr, nullptr,
+             PinholeCamera(request.intrinsics, Pose(), request.range, "movable camera"),
+             Utility(request.search.travel)} {
+  const PlanningScene scene(world, std::move(grid), request.volume.occluders);
+  tools_.scorer = make_view_scorer(request.method, scene, world, request.range);
+  tools_.checker = std::make_shared<const ViewChecker>(request.constraints, scene, request.range);
+  voxels_ = std::dynamic_pointer_cast<const VoxelScorer>(tools_.scorer);
+  if (voxels_ == nullptr) voxels_ = std::make_shared<const VoxelScorer>(scene);
+  if (request.servo.iterations == 0) return;
+  tools_.servo = std::make_shared<const ServoRefiner>(
+      shadow_view(tools_.scorer, scene, request.range), tools_.checker, tools_.camera,
+      shadow_centre(scene), request.servo);
+}
+
+ViewSearch PlanningTools::search() const {
+  return {tools_.scorer, tools_.checker, tools_.servo, tools_.camera, options_};
+}
+
+}  // namespace vantage::detail
