@@ -21,9 +21,9 @@ double overview_azimuth(const Plan& plan, const WorldModel& world) {
   Eigen::Vector3d given = Eigen::Vector3d::Zero();
   for (const Observer& observer : world.cameras) given += observer.camera.centre() - centre;
   const double given_azimuth = azimuth_of(given);
-  const auto camera = suggested_camera(plan);
-  if (!camera) return given_azimuth + std::numbers::pi / 3;
-  const Eigen::Vector3d suggested = camera->centre() - centre;
+  const std::vector<PinholeCamera> cameras = suggested_cameras(plan);
+  if (cameras.empty()) return given_azimuth + std::numbers::pi / 3;
+  const Eigen::Vector3d suggested = cameras.front().centre() - centre;
   const bool from_above = suggested.head<2>().norm() < 0.3 * suggested.norm();
   if (from_above) return given_azimuth + std::numbers::pi / 3;
   const double turn = std::remainder(given_azimuth - azimuth_of(suggested), 2 * std::numbers::pi);

@@ -4,6 +4,7 @@
 
 #include "command.hpp"
 #include "interrupt.hpp"
+#include "method_options.hpp"
 #include "plan_input.hpp"
 #include "vantage/raycore/error.hpp"
 #include "workers.hpp"
@@ -14,8 +15,7 @@ namespace {
 struct PlanArguments {
   PlanOptions plan;
   CommonOptions common;
-  std::string method = "voxel";
-  std::string candidates = "production";
+  MethodArguments method;
 };
 
 void add_input_options(CLI::App& verb, PlanOptions& plan) {
@@ -50,20 +50,16 @@ void add_object_options(CLI::App& verb, ObjectSource& source) {
 }
 
 void add_planning_options(CLI::App& verb, PlanArguments& arguments) {
-  verb.add_option("--method", arguments.method, "How views are scored")
-      ->check(CLI::IsMember({"voxel"}))
-      ->capture_default_str();
-  verb.add_option("--candidates", arguments.candidates,
-                  "Candidate views; production: two half-spheres of 20 that look at the centre")
-      ->check(CLI::IsMember({"production"}))
-      ->capture_default_str();
-  verb.add_option("--radii", arguments.plan.radii_m,
-                  "Radii of the half-spheres, metres, e.g. 0.6,0.9 (default: from the work area)")
-      ->delimiter(',');
-  verb.add_option("--count", arguments.plan.count, "Candidates on each half-sphere (default: 20)");
+  arguments.plan.candidates.add_to(verb);
+  arguments.method.add_to(verb);
   verb.add_option("--voxel-size", arguments.plan.voxel_size_m,
                   "Edge of a voxel, metres (default: 0.009375)");
-  verb.add_flag("--pictures", arguments.common.output.pictures, "Write overview.png and view.png")
+  OutputOptions& output = arguments.common.output;
+  verb.add_option("--explain", output.explain,
+                  "Explain these candidates, e.g. 17,3: what makes their scores, which shadow they "
+                  "reveal, and why they lost")
+      ->delimiter(',');
+  verb.add_flag("--pictures", output.pictures, "Write overview.png and view.png")
       ->needs(verb.get_option("--output"));
 }
 
@@ -92,6 +88,7 @@ ExitCode plan(const PlanArguments& arguments) {
   PlanInput input = Workers(arguments.common.threads).execute([&] {
     return load_plan_input(arguments.plan, run.stop);
   });
+  arguments.method.apply(input.request);
   for (const std::string& warning : input.warnings) spdlog::warn("{}", warning);
   input.record.config["deadline_ms"] = arguments.common.deadline_ms
                                            ? nlohmann::ordered_json(*arguments.common.deadline_ms)

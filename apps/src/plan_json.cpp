@@ -2,9 +2,11 @@
 
 #include <cmath>
 
+#include "candidate_json.hpp"
 #include "inputs_json.hpp"
 #include "pose_json.hpp"
 #include "version.hpp"
+#include "views_json.hpp"
 #include "volume_json.hpp"
 #include "volume_settings.hpp"
 
@@ -12,10 +14,6 @@ namespace vantage {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-Json number_or_null(const std::optional<double>& value) {
-  return value ? Json(*value) : Json();
-}
 
 Json camera_json(const PlanRequest& request) {
   const Intrinsics& k = request.intrinsics;
@@ -29,43 +27,25 @@ Json camera_json(const PlanRequest& request) {
           {"far_m", request.range.far_m}};
 }
 
-Json best_json(const Plan& plan) {
-  if (!plan.best) return nullptr;
-  const ViewCandidate& view = plan.candidates[*plan.best].view;
-  const double volume = *plan.newly_observed_volume_m3(*plan.best);
-  return {{"id", view.id},
-          {"T_world_cam", to_json(view.T_world_cam)},
-          {"score", volume},
-          {"newly_observed_volume_m3", volume},
-          {"servo_iteration", 0}};
-}
-
-Json candidates_json(const Plan& plan) {
-  Json list = Json::array();
-  for (std::size_t i = 0; i < plan.candidates.size(); ++i) {
-    const ScoredCandidate& candidate = plan.candidates[i];
-    const Json volume = number_or_null(plan.newly_observed_volume_m3(i));
-    list.push_back({{"id", candidate.view.id},
-                    {"score", volume},
-                    {"newly_observed_volume_m3", volume},
-                    {"feasible", !candidate.rejected.has_value()},
-                    {"rejected", candidate.rejected ? Json(*candidate.rejected) : Json()}});
-  }
-  return list;
-}
-
 double milliseconds(double seconds) {
   return std::round(seconds * 1e6) / 1e3;
 }
 
 }  // namespace
 
-Json plan_to_json(const Plan& plan, const ShadowRegions* regions, const PlanRecord& record) {
+Json plan_to_json(const Plan& plan, const ShadowRegions* regions,
+                  const std::vector<ViewExplanation>& explained, const PlanRecord& record) {
   return {{"vantage", kVersion},
-          {"method", "voxel"},
+          {"method", plan.request.method.name},
+          {"score_unit", plan.score_unit_name},
           {"partial", plan.stopped != StopReason::none},
+          {"finished_candidates", plan.finished},
           {"camera", camera_json(plan.request)},
           {"best", best_json(plan)},
+          {"views", views_json(plan)},
+          {"ranked", ranked_json(plan)},
+          {"rejections", rejections_json(plan)},
+          {"explanations", explanations_json(plan, explained)},
           {"candidates", candidates_json(plan)},
           {"volumes_m3", volumes_json(plan)},
           {"anti_alias", anti_alias_json(plan)},
@@ -83,21 +63,26 @@ Json plan_to_json(const Plan& plan, const ShadowRegions* regions, const PlanReco
 }
 
 Json config_of(const PlanRequest& request) {
-  Json config = {
+  Json travel;
+  if (request.search.travel) {
+    travel = {{"weight_per_m", request.search.travel->weight_per_m},
+              {"from_m", to_json(request.search.travel->from_m)}};
+  }
+  return {
       {"work_area",
        {{"min_m", to_json(request.work_area.min())}, {"max_m", to_json(request.work_area.max())}}},
-      {"candidates",
-       {{"set", "production"},
-        {"radii_m", request.radii_m},
-        {"count", request.candidates_per_half_sphere}}},
-      {"reach", nullptr},
+      {"candidates", config_of(request.candidates, request.work_area)},
+      {"constraints", config_of(request.constraints)},
+      {"depth_power", request.method.depth_power},
+      {"servo",
+       {{"iterations", request.servo.iterations}, {"image_width", request.servo.image_width}}},
+      {"ranked", request.search.ranked},
+      {"travel", travel},
+      {"views",
+       {{"most", request.views.most},
+        {"least_gain_m3", request.views.least_gain_m3},
+        {"least_gain_share", request.views.least_gain_share}}},
       {"volume", config_of(request.volume)}};
-  if (request.reach) {
-    config["reach"] = {{"base_m", to_json(request.reach->base_m)},
-                       {"min_m", request.reach->min_m},
-                       {"max_m", request.reach->max_m}};
-  }
-  return config;
 }
 
 }  // namespace vantage

@@ -19,8 +19,10 @@ struct PlanRecord {
 
 /// plan.json as assets/schema/plan.schema.json describes it.
 /// @param regions of `plan.classified`; null if there is none.
+/// @param explained candidates that the user asked about.
 /// @throws Error bad_input if an input file has gone in the meantime.
 nlohmann::ordered_json plan_to_json(const Plan& plan, const ShadowRegions* regions,
+                                    const std::vector<ViewExplanation>& explained,
                                     const PlanRecord& record);
 
 /// The settings that the planner used, for `PlanRecord::config`.

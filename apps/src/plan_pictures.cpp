@@ -126,7 +126,7 @@ void write_suggested_view(const std::filesystem::path& path, const Plan& plan,
   Stage stage(plan);
   stage.add_voxels();
   stage.add_floor();
-  stage.draw(path, suggested_camera(plan).value(), stop);
+  stage.draw(path, suggested_cameras(plan).at(0), stop);
 }
 
 void write_scene_model(const std::filesystem::path& path, const Plan& plan,

@@ -25,8 +25,8 @@ TriangleMesh shape_of(const PinholeCamera& camera, const Plan& plan, double size
 }
 
 /// Many cameras are drawn small: else their frusta are all that one sees.
-double size_of_given_cameras(const WorldModel& world) {
-  return std::min(1.0, 2 / std::sqrt(double(std::max<std::size_t>(1, world.cameras.size()))));
+double size_among(std::size_t cameras) {
+  return std::min(1.0, 2 / std::sqrt(double(std::max<std::size_t>(1, cameras))));
 }
 
 }  // namespace
@@ -35,10 +35,12 @@ double scale_of(const Plan& plan) {
   return 0.5 * plan.request.work_area.size().norm();
 }
 
-std::optional<PinholeCamera> suggested_camera(const Plan& plan) {
-  if (!plan.best) return std::nullopt;
-  return PinholeCamera(plan.request.intrinsics, plan.candidates[*plan.best].view.T_world_cam,
-                       plan.request.range);
+std::vector<PinholeCamera> suggested_cameras(const Plan& plan) {
+  std::vector<PinholeCamera> cameras;
+  for (const NextView& next : plan.views) {
+    cameras.emplace_back(plan.request.intrinsics, next.view.T_world_cam, plan.request.range);
+  }
+  return cameras;
 }
 
 std::vector<ColoredMesh> voxel_meshes(const StateGrid& grid) {
@@ -52,10 +54,15 @@ std::vector<ColoredMesh> camera_meshes(const Plan& plan, const WorldModel& world
       {"work area", box_edges(plan.request.work_area, 0.004 * scale_of(plan)), kWorkArea}};
   for (const Observer& observer : world.cameras) {
     meshes.push_back({"camera " + observer.name,
-                      shape_of(observer.camera, plan, size_of_given_cameras(world)), kGivenCamera});
+                      shape_of(observer.camera, plan, size_among(world.cameras.size())),
+                      kGivenCamera});
   }
-  if (const auto camera = suggested_camera(plan)) {
-    meshes.push_back({"suggested camera", shape_of(*camera, plan), kSuggestedCamera});
+  const std::vector<PinholeCamera> suggested = suggested_cameras(plan);
+  for (std::size_t i = 0; i < suggested.size(); ++i) {
+    const std::string number = i == 0 ? "" : " " + std::to_string(i + 1);
+    meshes.push_back({"suggested camera" + number,
+                      shape_of(suggested[i], plan, size_among(suggested.size())),
+                      kSuggestedCamera});
   }
   return meshes;
 }

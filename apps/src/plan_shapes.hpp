@@ -1,6 +1,5 @@
 #pragma once
 
-#include <optional>
 #include <vector>
 
 #include "vantage/planner/plan.hpp"
@@ -14,13 +13,13 @@ namespace vantage {
 /// Half the diagonal of the work area: sizes of what is drawn follow it.
 double scale_of(const Plan& plan);
 
-/// The movable camera at the best view, if there is one.
-std::optional<PinholeCamera> suggested_camera(const Plan& plan);
+/// The movable camera at the views to take, in their order; none if there is none.
+std::vector<PinholeCamera> suggested_cameras(const Plan& plan);
 
 /// Occupied voxels green, shadow red, revealed cyan; the last with an opacity below 1.
 std::vector<ColoredMesh> voxel_meshes(const StateGrid& grid);
 
-/// The work area's edges; the given cameras grey, the suggested one red, with their frusta.
+/// The work area's edges; the given cameras grey, the suggested ones red, with their frusta.
 std::vector<ColoredMesh> camera_meshes(const Plan& plan, const WorldModel& world);
 
 }  // namespace vantage

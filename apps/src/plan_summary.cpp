@@ -9,29 +9,67 @@ namespace vantage {
 namespace {
 
 std::string rejections(const Plan& plan) {
-  std::map<std::string, int> counts;
+  std::map<Rejection, int> counts;
   for (const ScoredCandidate& candidate : plan.candidates) {
-    if (candidate.rejected) ++counts[*candidate.rejected];
+    if (candidate.rejected != Rejection::none) ++counts[candidate.rejected];
   }
   std::string text;
   for (const auto& [reason, count] : counts) {
-    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, reason);
+    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, to_text(reason));
   }
   return text;
 }
 
-std::string best_summary(const Plan& plan) {
-  const ScoredCandidate& best = plan.candidates[*plan.best];
-  const Eigen::Vector3d& p = best.view.T_world_cam.translation();
-  const Eigen::Vector3d look = best.view.T_world_cam.rotation().col(2);
-  const double revealed = *plan.newly_observed_volume_m3(*plan.best);
+std::string camera_text(const Pose& T_world_cam) {
+  const Eigen::Vector3d& p = T_world_cam.translation();
+  const Eigen::Vector3d look = T_world_cam.rotation().col(2);
+  return fmt::format("at [{:.3f}, {:.3f}, {:.3f}] m, looking along [{:.3f}, {:.3f}, {:.3f}]", p.x(),
+                     p.y(), p.z(), look.x(), look.y(), look.z());
+}
+
+std::string reveals_text(const Plan& plan, std::uint64_t voxels) {
+  const double revealed = plan.volume_m3(voxels);
   const double shadow = plan.classified->volume_m3(VoxelState::shadow);
-  return fmt::format(
-      "next view  candidate {} of {}\n"
-      "camera     at [{:.3f}, {:.3f}, {:.3f}] m, looking along [{:.3f}, {:.3f}, {:.3f}]\n"
-      "reveals    {:.6f} m³, {:.1f} % of the shadow\n",
-      best.view.id, plan.candidates.size(), p.x(), p.y(), p.z(), look.x(), look.y(), look.z(),
-      revealed, shadow > 0 ? 100 * revealed / shadow : 0.0);
+  return fmt::format("{:.6f} m³, {:.1f} % of the shadow", revealed,
+                     shadow > 0 ? 100 * revealed / shadow : 0.0);
+}
+
+std::string best_summary(const Plan& plan) {
+  const RankedView& best = *plan.best();
+  std::string text = fmt::format(
+      "next view  candidate {} of {}{}\n"
+      "camera     {}\n"
+      "reveals    {}\n",
+      plan.candidates[best.candidate].view.id, plan.candidates.size(),
+      best.servo_iteration > 0 ? fmt::format(", servo iteration {}", best.servo_iteration) : "",
+      camera_text(best.T_world_cam), reveals_text(plan, plan.views.front().revealed_voxels));
+  if (plan.request.method.name != "voxel") {
+    text += fmt::format("score      {:.6g} {} (method {})\n", plan.in_units(best.score),
+                        plan.score_unit_name, plan.request.method.name);
+  }
+  std::uint64_t revealed = plan.views.front().revealed_voxels;
+  for (std::size_t i = 1; i < plan.views.size(); ++i) {
+    const NextView& next = plan.views[i];
+    revealed += next.revealed_voxels;
+    text +=
+        fmt::format("view {:<6}candidate {} {}\n           reveals {} more\n", i + 1,
+                    plan.candidates[next.view.candidate].view.id,
+                    camera_text(next.view.T_world_cam), reveals_text(plan, next.revealed_voxels));
+  }
+  if (plan.views.size() > 1) {
+    text += fmt::format("together   {}\n", reveals_text(plan, revealed));
+  }
+  return text;
+}
+
+std::string no_view_summary(const Plan& plan) {
+  if (plan.stopped != StopReason::none) return "stopped before any score\n";
+  const bool all_rejected = std::all_of(
+      plan.candidates.begin(), plan.candidates.end(),
+      [](const ScoredCandidate& candidate) { return candidate.rejected != Rejection::none; });
+  if (all_rejected) return "no feasible view: every candidate was rejected\n";
+  if (plan.classified->count(VoxelState::shadow) == 0) return "no view: there is no shadow\n";
+  return "no view: none of the candidates reveals any shadow\n";
 }
 
 std::string shadow_summary(const StateGrid& grid, const ShadowRegions& regions) {
@@ -70,25 +108,39 @@ std::string volume_summary(const Plan& plan, const ShadowRegions& regions) {
   return text;
 }
 
+std::string explanation(const Plan& plan, const ViewExplanation& view) {
+  std::string text = fmt::format("\ncandidate {}: {}\n", view.candidate.id, view.verdict);
+  for (std::size_t i = 0; i < view.trace.size(); ++i) {
+    const ScoredStep& step = view.trace[i];
+    text += fmt::format("  servo {:<2} {:<7} {}: {:.6g} {}{}\n", i, to_text(step.step.move),
+                        camera_text(step.step.T_world_cam), plan.in_units(step.score.score),
+                        plan.score_unit_name, i == view.best_step ? "  <- best" : "");
+  }
+  for (const ScoreTerm& term : view.terms) {
+    text += fmt::format("  {:<22} {:.6g} {}\n", term.name, term.value, term.unit);
+  }
+  for (const RegionGain& gain : view.regions) {
+    text += fmt::format("  of shadow region {:<5} {:.6f} of {:.6f} m³\n", gain.region + 1,
+                        plan.volume_m3(gain.revealed), plan.volume_m3(gain.voxels));
+  }
+  return text;
+}
+
 }  // namespace
 
-std::string summary_of(const Plan& plan, const ShadowRegions* regions) {
-  std::string text;
+std::string summary_of(const Plan& plan, const ShadowRegions* regions,
+                       const std::vector<ViewExplanation>& explained) {
   if (plan.classified == nullptr) return "stopped before the work area was classified: no view\n";
-  if (plan.best) {
-    text += best_summary(plan);
-  } else {
-    text += plan.stopped == StopReason::none ? "no feasible view\n" : "stopped before any score\n";
-  }
+  std::string text = plan.best() != nullptr ? best_summary(plan) : no_view_summary(plan);
   if (plan.stopped != StopReason::none) {
-    const auto scored = std::count_if(plan.candidates.begin(), plan.candidates.end(),
-                                      [](const auto& c) { return c.revealed_voxels.has_value(); });
-    text +=
-        fmt::format("partial    {} of {} candidates were scored\n", scored, plan.candidates.size());
+    text += fmt::format("partial    {} of {} candidates were finished\n", plan.finished,
+                        plan.candidates.size());
   }
   const std::string rejected = rejections(plan);
   if (!rejected.empty()) text += "rejected   " + rejected + "\n";
-  return text + volume_summary(plan, *regions);
+  text += volume_summary(plan, *regions);
+  for (const ViewExplanation& view : explained) text += explanation(plan, view);
+  return text;
 }
 
 }  // namespace vantage

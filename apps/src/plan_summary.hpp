@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "vantage/planner/plan.hpp"
 #include "vantage/volume/shadow_regions.hpp"
@@ -9,6 +10,8 @@ namespace vantage {
 
 /// The plan in a few lines for a person.
 /// @param regions of `plan.classified`; null if there is none.
-std::string summary_of(const Plan& plan, const ShadowRegions* regions);
+/// @param explained candidates that the user asked about.
+std::string summary_of(const Plan& plan, const ShadowRegions* regions,
+                       const std::vector<ViewExplanation>& explained);
 
 }  // namespace vantage

@@ -1,5 +1,6 @@
 #include "run_plan.hpp"
 
+#include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
 #include <iostream>
@@ -45,7 +46,7 @@ void write_extras(const Plan& plan, const ShadowRegions& regions, const WorldMod
         [&](const fs::path& p) { write_scene_model(p, plan, world); });
   write(output.pictures, "overview.png",
         [&](const fs::path& p) { write_overview(p, plan, world, output.picture_width, stop); });
-  write(output.pictures && plan.best, "view.png",
+  write(output.pictures && !plan.views.empty(), "view.png",
         [&](const fs::path& p) { write_suggested_view(p, plan, stop); });
 }
 
@@ -65,7 +66,29 @@ ExitCode exit_code_of(const Plan& plan) {
     case StopReason::none:
       break;
   }
-  return plan.best ? ExitCode::ok : ExitCode::no_feasible_view;
+  return plan.best() != nullptr ? ExitCode::ok : ExitCode::no_feasible_view;
+}
+
+/// Asked for before the work, so that a wrong id costs nothing.
+void check_explained(const PlanRequest& request, const std::vector<int>& ids) {
+  if (ids.empty()) return;
+  const std::size_t count = view_candidates(request.candidates, request.work_area).size();
+  for (const int id : ids) {
+    if (id >= 0 && std::size_t(id) < count) continue;
+    throw bad_input("--explain",
+                    fmt::format("found candidate {}; expected 0 to {}", id, count - 1));
+  }
+}
+
+/// Nothing where the plan was stopped too early for it.
+std::vector<ViewExplanation> explain(const WorldModel& world, const Plan& plan,
+                                     const std::vector<int>& ids, const StopToken& stop) {
+  std::vector<ViewExplanation> explained;
+  for (const int id : ids) {
+    if (plan.classified == nullptr || stop.stop_requested()) break;
+    explained.push_back(explain_view(world, plan, id));
+  }
+  return explained;
 }
 
 }  // namespace
@@ -74,25 +97,28 @@ ExitCode run_plan(const WorldModel& world, const PlanRequest& request, PlanRecor
                   const OutputOptions& output, const RunOptions& run,
                   StopToken::Clock::time_point start) {
   Workers workers(run.threads);
+  check_explained(request, output.explain);
   if (!output.folder.empty()) make_folder(output.folder);
 
   std::optional<ShadowRegions> regions;
+  std::vector<ViewExplanation> explained;
   const Plan plan = workers.execute([&] {
     const ProgressLine progress("planning", run.stop);
     Plan result = plan_next_view(world, request, run.stop);
     if (result.classified != nullptr) regions.emplace(*result.classified);
+    explained = explain(world, result, output.explain, run.stop);
     return result;
   });
   record.total_s = std::chrono::duration<double>(StopToken::Clock::now() - start).count();
   record.config.update(config_of(plan.request));
   warn_of(plan);
   const ShadowRegions* const found = regions ? &*regions : nullptr;
-  const std::string json = plan_to_json(plan, found, record).dump(1) + "\n";
+  const std::string json = plan_to_json(plan, found, explained, record).dump(1) + "\n";
   if (!output.folder.empty()) {
     write_file(output.folder / "plan.json", json);
     spdlog::info("wrote {}", (output.folder / "plan.json").string());
   }
-  std::cout << (output.json ? json : summary_of(plan, found)) << std::flush;
+  std::cout << (output.json ? json : summary_of(plan, found, explained)) << std::flush;
   if (regions) {
     workers.execute([&] { write_extras(plan, *regions, world, output, run.drawing); });
   }

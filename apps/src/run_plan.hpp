@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <vector>
 
 #include "exit_code.hpp"
 #include "plan_json.hpp"
@@ -12,6 +13,7 @@ namespace vantage {
 
 /// What a command that plans writes, and where.
 struct OutputOptions {
+  std::vector<int> explain = {};      ///< candidates to explain, by id
   std::filesystem::path folder = {};  ///< empty: nothing is written but the answer on stdout
   bool json = false;                  ///< stdout gets plan.json instead of the summary
   bool save_grid = false;             ///< grid.vdb, labels.npy, regions.npy

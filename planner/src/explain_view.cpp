@@ -41,7 +41,7 @@ std::vector<RegionGain> region_gains(const StateGrid& grid, const std::vector<st
 }
 
 std::string score_text(const Plan& plan, Score score) {
-  return fmt::format("{:.6g} {}", double(score) * plan.score_unit, plan.score_unit_name);
+  return fmt::format("{:.6g} {}", plan.in_units(score), plan.score_unit_name);
 }
 
 std::string verdict_of(const Plan& plan, const ViewExplanation& view,

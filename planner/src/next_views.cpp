@@ -79,7 +79,7 @@ PlanRequest from_view(PlanRequest request, const Pose& T_world_cam) {
 
 bool worth_it(const Plan& plan, std::uint64_t revealed_voxels) {
   const ViewCount& views = plan.request.views;
-  const double gain_m3 = double(revealed_voxels) * plan.classified->geometry().voxel_volume_m3();
+  const double gain_m3 = plan.volume_m3(revealed_voxels);
   return revealed_voxels > 0 && gain_m3 >= views.least_gain_m3 &&
          gain_m3 >= views.least_gain_share * plan.classified->volume_m3(VoxelState::shadow);
 }

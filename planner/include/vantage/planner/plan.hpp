@@ -70,6 +70,14 @@ struct Plan {
   double score_s = 0;
 
   const RankedView* best() const { return ranked.empty() ? nullptr : &ranked.front(); }
+
+  /// A score in `score_unit_name`.
+  double in_units(Score score) const { return double(score) * score_unit; }
+
+  /// Voxels as a volume, m³. Needs a grid.
+  double volume_m3(std::uint64_t voxels) const {
+    return double(voxels) * classified->geometry().voxel_volume_m3();
+  }
 };
 
 /// Finds the view that a method likes best, and if more are asked for, those to take after it:

@@ -1,0 +1,65 @@
+#include "method_options.hpp"
+
+namespace vantage {
+namespace {
+
+void add_travel_options(CLI::App& verb, MethodArguments& arguments) {
+  CLI::Option* from = verb.add_option("--from", arguments.from_m,
+                                      "X Y Z: where the camera is now, metres, world frame")
+                          ->expected(3);
+  verb.add_option("--travel-weight", arguments.travel_weight_per_m,
+                  "Cost of the journey: a score counts exp(-W d) times at a distance of d metres")
+      ->check(CLI::NonNegativeNumber)
+      ->needs(from);
+}
+
+void add_view_count_options(CLI::App& verb, ViewCount& views) {
+  verb.add_option("--views", views.most, "Plan so many views, each for what those before it left")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  verb.add_option("--least-gain", views.least_gain_m3,
+                  "Stop before a further view that reveals less than this, m³")
+      ->check(CLI::NonNegativeNumber);
+  verb.add_option("--least-gain-share", views.least_gain_share, "The same as a share of all shadow")
+      ->check(CLI::Range(0.0, 1.0));
+}
+
+}  // namespace
+
+void MethodArguments::add_to(CLI::App& verb) {
+  verb.add_option(
+          "--method", method.name,
+          "What a view is worth; voxel: the volume that it would reveal; shadow: the shadow "
+          "on its image, weighted by distance; light: unlit surface that it would light, to "
+          "compare with")
+      ->check(CLI::IsMember(method_names()))
+      ->capture_default_str();
+  verb.add_option("--depth-power", method.depth_power,
+                  "Of --method shadow: pixels count depth^P; 0, 3 and 6 are the thesis' D0, D3, D6")
+      ->check(CLI::Range(0.0, 16.0))
+      ->capture_default_str();
+  verb.add_option("--servo", servo_iterations,
+                  "Iterations of simulated visual servoing for each candidate; 0: none")
+      ->check(CLI::Range(0, 100))
+      ->capture_default_str();
+  verb.add_option("--servo-width", servo_width, "Width of the images for servoing, pixels")
+      ->check(CLI::Range(16, 16384))
+      ->capture_default_str();
+  verb.add_option("--ranked", ranked, "So many of the best are found for certain, in their order")
+      ->check(CLI::Range(1, 1000000))
+      ->capture_default_str();
+  add_travel_options(verb, *this);
+  add_view_count_options(verb, views);
+}
+
+void MethodArguments::apply(PlanRequest& request) const {
+  request.method = method;
+  request.servo = {servo_iterations, servo_width};
+  request.search.ranked = ranked;
+  if (!from_m.empty()) {
+    request.search.travel = TravelCost{travel_weight_per_m, {from_m[0], from_m[1], from_m[2]}};
+  }
+  request.views = views;
+}
+
+}  // namespace vantage

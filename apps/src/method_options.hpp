@@ -1,0 +1,28 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "vantage/planner/plan.hpp"
+
+namespace vantage {
+
+/// How views are scored, refined and chosen: what the command line says of it.
+struct MethodArguments {
+  MethodOptions method;
+  int servo_iterations = ServoOptions().iterations;
+  int servo_width = ServoOptions().image_width;
+  int ranked = SearchOptions().ranked;
+  double travel_weight_per_m = 0;
+  std::vector<double> from_m;  ///< x y z; empty: not given
+  ViewCount views;
+
+  void add_to(CLI::App& verb);
+
+  /// Puts all of it into a request.
+  void apply(PlanRequest& request) const;
+};
+
+}  // namespace vantage
