@@ -6,45 +6,13 @@
 
 #include "evaluation/plot_axis.hpp"
 #include "evaluation/plot_marks.hpp"
+#include "evaluation/svg.hpp"
 
 namespace vantage {
 namespace {
 
 constexpr double kPanelWidth = 300, kPanelHeight = 300;  // of the axes' frame
 constexpr double kLeft = 74, kRight = 22, kTop = 108, kBottom = 62;
-
-std::string escaped(const std::string& text) {
-  std::string result;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        result += "&amp;";
-        break;
-      case '<':
-        result += "&lt;";
-        break;
-      case '>':
-        result += "&gt;";
-        break;
-      case '"':
-        result += "&quot;";
-        break;
-      default:
-        result += c;
-    }
-  }
-  return result;
-}
-
-std::string text(double x, double y, const char* kind, const std::string& content) {
-  return fmt::format("<text class=\"{}\" x=\"{:.1f}\" y=\"{:.1f}\">{}</text>\n", kind, x, y,
-                     escaped(content));
-}
-
-std::string line(double x0, double y0, double x1, double y1, const std::string& look) {
-  return fmt::format("<line x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\" {}/>\n", x0, y0,
-                     x1, y1, look);
-}
 
 /// Where a panel's values are on the page.
 struct Frame {
@@ -75,22 +43,22 @@ Frame frame_of(const PlotPanel& panel, double left) {
 
 std::string draw_axes(const PlotPanel& panel, const Frame& frame, const std::string& x_label) {
   const double right = frame.left + kPanelWidth, middle = frame.left + kPanelWidth / 2;
-  std::string svg = text(middle, kTop - 16, "panel", panel.title);
+  std::string svg = svg_text(middle, kTop - 16, "panel", panel.title);
   for (const double tick : frame.axis.ticks()) {
-    svg += line(frame.left, frame.y(tick), right, frame.y(tick), "class=\"grid\"");
-    svg += text(frame.left - 8, frame.y(tick) + 4, "tick-y", fmt::format("{:.10g}", tick));
+    svg += svg_line(frame.left, frame.y(tick), right, frame.y(tick), "class=\"grid\"");
+    svg += svg_text(frame.left - 8, frame.y(tick) + 4, "tick-y", fmt::format("{:.10g}", tick));
   }
   for (int x = frame.first_x; x <= frame.last_x; ++x) {
-    svg += line(frame.x(x), frame.bottom(), frame.x(x), frame.bottom() + 5, "class=\"axis\"");
-    svg += text(frame.x(x), frame.bottom() + 20, "tick-x", std::to_string(x));
+    svg += svg_line(frame.x(x), frame.bottom(), frame.x(x), frame.bottom() + 5, "class=\"axis\"");
+    svg += svg_text(frame.x(x), frame.bottom() + 20, "tick-x", std::to_string(x));
   }
-  svg += line(frame.left, kTop, frame.left, frame.bottom(), "class=\"axis\"");
-  svg += line(frame.left, frame.bottom(), right, frame.bottom(), "class=\"axis\"");
-  svg += text(middle, frame.bottom() + 44, "label", x_label);
+  svg += svg_line(frame.left, kTop, frame.left, frame.bottom(), "class=\"axis\"");
+  svg += svg_line(frame.left, frame.bottom(), right, frame.bottom(), "class=\"axis\"");
+  svg += svg_text(middle, frame.bottom() + 44, "label", x_label);
   return svg + fmt::format(
                    "<text class=\"label\" transform=\"translate({:.1f} {:.1f}) "
                    "rotate(-90)\">{}</text>\n",
-                   frame.left - 54, kTop + kPanelHeight / 2, escaped(panel.unit));
+                   frame.left - 54, kTop + kPanelHeight / 2, xml_escaped(panel.unit));
 }
 
 /// A bar that leaves the axis below points there with a short arrow.
@@ -98,14 +66,15 @@ std::string draw_bar(const PlotPoint& point, double x, const Frame& frame, const
   const std::string look = fmt::format("stroke=\"{}\" stroke-width=\"1.4\"", color);
   const double low = point.mean - point.deviation, middle = frame.y(point.mean);
   const double top = frame.y(point.mean + point.deviation);
-  std::string svg = line(x, top, x, middle, look) + line(x - 4, top, x + 4, top, look);
+  std::string svg = svg_line(x, top, x, middle, look) + svg_line(x - 4, top, x + 4, top, look);
   if (low >= frame.axis.low()) {
     const double bottom = frame.y(low);
-    return svg + line(x, middle, x, bottom, look) + line(x - 4, bottom, x + 4, bottom, look);
+    return svg + svg_line(x, middle, x, bottom, look) +
+           svg_line(x - 4, bottom, x + 4, bottom, look);
   }
   const double tip = std::min(middle + 22, frame.bottom());
-  return svg + line(x, middle, x, tip, look) + line(x - 3.5, tip - 6, x, tip, look) +
-         line(x + 3.5, tip - 6, x, tip, look);
+  return svg + svg_line(x, middle, x, tip, look) + svg_line(x - 3.5, tip - 6, x, tip, look) +
+         svg_line(x + 3.5, tip - 6, x, tip, look);
 }
 
 /// Series stand a little beside each other, so that no bar hides another one.
@@ -132,21 +101,14 @@ std::string draw_legend(const std::vector<PlotSeries>& series, double x) {
   std::string svg;
   for (std::size_t i = 0; i < series.size(); ++i) {
     const PlotStyle style = plot_style(i);
-    svg += line(x, 62, x + 40, 62,
-                fmt::format("stroke=\"{}\" stroke-width=\"1.8\" stroke-dasharray=\"{}\"",
-                            style.color, style.dashes));
-    svg += plot_mark(i, x + 20, 62) + text(x + 48, 66, "legend", series[i].name);
+    svg += svg_line(x, 62, x + 40, 62,
+                    fmt::format("stroke=\"{}\" stroke-width=\"1.8\" stroke-dasharray=\"{}\"",
+                                style.color, style.dashes));
+    svg += plot_mark(i, x + 20, 62) + svg_text(x + 48, 66, "legend", series[i].name);
     x += 76 + 7.5 * double(series[i].name.size());
   }
   return svg;
 }
-
-constexpr const char* kLooks =
-    "text{font-family:'DejaVu Sans',Helvetica,Arial,sans-serif;fill:#222;font-size:12px}\n"
-    ".title{font-size:17px;font-weight:bold}.panel{font-size:14px;text-anchor:middle}\n"
-    ".label,.tick-x{text-anchor:middle}.tick-y{text-anchor:end}.legend{font-size:13px}\n"
-    ".grid{stroke:#ddd;stroke-width:1}.axis{stroke:#222;stroke-width:1.2}\n"
-    ".note{fill:#666;font-size:11px}\n";
 
 }  // namespace
 
@@ -155,12 +117,7 @@ std::string error_plot_svg(const std::string& title, const std::string& x_label,
   const double pitch = kLeft + kPanelWidth + kRight;
   const double width = pitch * double(std::max<std::size_t>(panels.size(), 1));
   const double height = kTop + kPanelHeight + kBottom + 20;
-  std::string svg = fmt::format(
-      "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:.0f}\" height=\"{1:.0f}\" "
-      "viewBox=\"0 0 {0:.0f} {1:.0f}\">\n<style>{2}</style>\n"
-      "<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n",
-      width, height, kLooks);
-  svg += text(kLeft - 54, 32, "title", title);
+  std::string svg = svg_text(kLeft - 54, 32, "title", title);
   if (!panels.empty()) svg += draw_legend(panels.front().series, kLeft - 54);
   bool logarithmic = false;
   for (std::size_t i = 0; i < panels.size(); ++i) {
@@ -170,10 +127,10 @@ std::string error_plot_svg(const std::string& title, const std::string& x_label,
     for (std::size_t s = 0; s < panels[i].series.size(); ++s)
       svg += draw_series(panels[i], s, frame);
   }
-  svg += text(kLeft - 54, height - 12, "note",
-              std::string("Means; bars: one standard deviation of the sample each way") +
-                  (logarithmic ? "; an arrow where it reaches below the scale" : ""));
-  return svg + "</svg>\n";
+  svg += svg_text(kLeft - 54, height - 12, "note",
+                  std::string("Means; bars: one standard deviation of the sample each way") +
+                      (logarithmic ? "; an arrow where it reaches below the scale" : ""));
+  return svg_page(width, height, svg);
 }
 
 }  // namespace vantage
