@@ -14,17 +14,6 @@ std::shared_ptr<const ShadowView> shadow_view(const std::shared_ptr<const ViewSc
 
 }  // namespace
 
-Eigen::Vector3d shadow_centre(const PlanningScene& scene) {
-  const PointsView points = scene.shadow_centres();
-  if (points.size == 0) {
-    const GridGeometry& geometry = scene.grid().geometry();
-    return 0.5 * (geometry.corner({0, 0, 0}) + geometry.corner(geometry.size()));
-  }
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  for (std::size_t i = 0; i < points.size; ++i) sum += points[i].cast<double>();
-  return sum / double(points.size);
-}
-
 PlanningTools::PlanningTools(const WorldModel& world, std::shared_ptr<const StateGrid> grid,
                              const PlanRequest& request)
     : options_(request.search),
@@ -39,7 +28,7 @@ PlanningTools::PlanningTools(const WorldModel& world, std::shared_ptr<const Stat
   if (request.servo.iterations == 0) return;
   tools_.servo = std::make_shared<const ServoRefiner>(
       shadow_view(tools_.scorer, scene, request.range), tools_.checker, tools_.camera,
-      shadow_centre(scene), request.servo);
+      scene.middle_of_shadow(), request.servo);
 }
 
 ViewSearch PlanningTools::search() const {

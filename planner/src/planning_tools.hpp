@@ -8,9 +8,6 @@
 
 namespace vantage::detail {
 
-/// The middle of the shadow, where the servo measures distances to; of the grid if there is none.
-Eigen::Vector3d shadow_centre(const PlanningScene& scene);
-
 /// All that a plan needs besides the candidates, made from a classified grid.
 class PlanningTools {
  public:

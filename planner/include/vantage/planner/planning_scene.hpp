@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <memory>
 
 #include "vantage/raycore/api.hpp"
@@ -35,6 +36,9 @@ class VANTAGE_API PlanningScene {
 
   /// `grid().centres(shadow)`.
   PointsView shadow_centres() const noexcept { return *shadow_centres_; }
+
+  /// Their mean, which the servo measures distances to; the grid's middle if there is no shadow.
+  Eigen::Vector3d middle_of_shadow() const;
 
  private:
   std::shared_ptr<const StateGrid> grid_;
