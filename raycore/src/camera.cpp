@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string>
 
+#include "pixel_direction.hpp"
 #include "vantage/raycore/error.hpp"
 #include "vantage/raycore/multiversion.hpp"
 
@@ -130,9 +131,9 @@ std::optional<ImagePoint> PinholeCamera::project(const Eigen::Vector3d& p_world)
 }
 
 PixelRay PinholeCamera::pixel_ray(double u, double v) const {
-  const Eigen::Vector3d direction_cam((u - intrinsics_.cx) / intrinsics_.fx,
-                                      (v - intrinsics_.cy) / intrinsics_.fy, 1.0);
-  return {centre(), T_world_cam_.rotation() * direction_cam};
+  const detail::PixelRotation R(T_world_cam_.rotation());
+  const double x = (u - intrinsics_.cx) / intrinsics_.fx, y = (v - intrinsics_.cy) / intrinsics_.fy;
+  return {centre(), {R.turned<0>(x, y), R.turned<1>(x, y), R.turned<2>(x, y)}};
 }
 
 Eigen::Vector3d PinholeCamera::unproject(double u, double v, double depth) const {

@@ -55,6 +55,21 @@ enum class RayOrder {
   coherent,    ///< neighbouring pixels of one camera
 };
 
+/// A square of 4 × 4 pixels of an image, aligned to it: pixels (4 column + i % 4, 4 row + i / 4)
+/// for i = 0 … 15. At the image's borders some may lie outside it.
+struct PixelTile {
+  static constexpr int kSide = 4;
+  static constexpr int kPixels = kSide * kSide;
+  std::uint16_t column = 0, row = 0;
+  bool operator==(const PixelTile&) const = default;
+};
+
+/// What the rays of a tile's pixels meet first. A miss has t = +infinity, object = kNoObject.
+struct TileHits {
+  alignas(64) float t[PixelTile::kPixels];  ///< depth along the optical axis, metres
+  alignas(64) ObjectId object[PixelTile::kPixels];
+};
+
 namespace detail {
 struct SceneImpl;
 }
@@ -100,6 +115,14 @@ class VANTAGE_API Scene {
   /// N rays from one origin, e.g. a camera's centre.
   void closest_hits(const Eigen::Vector3f& origin, PointsView directions, Hits& hits,
                     RayOrder order = RayOrder::coherent) const;
+
+  /// The first hits, at depths up to the camera's far depth, of N tiles of its image: of the rays
+  /// `pixel_ray(u, v)`, directions rounded to float. A tile is a packet of its own, so that what
+  /// comes out for it does not depend on the other tiles. Runs in the calling thread.
+  /// @throws Error bad_input unless both spans have the same size, and for a camera that is, or
+  /// whose pixels look, beyond 1e9 m.
+  void first_hits(const PinholeCamera& camera, std::span<const PixelTile> tiles,
+                  std::span<TileHits> hits) const;
 
   /// The depth that an ideal sensor measures: unknown where the first surface is not within the
   /// camera's range. What is nearer than that hides what is behind it, and is unknown itself.
