@@ -32,11 +32,12 @@ double round_up(double value) {
 
 }  // namespace
 
-PlotAxis::PlotAxis(const std::vector<double>& values, const std::vector<double>& reach) {
+PlotAxis::PlotAxis(const std::vector<double>& values, const std::vector<double>& reach,
+                   PlotScale scale) {
   const double least = values.empty() ? 0 : std::ranges::min(values);
   const double most = values.empty() ? 0 : std::ranges::max(values);
   const double top = std::max(most, reach.empty() ? 0 : std::ranges::max(reach));
-  logarithmic_ = least > 0 && most > kLogarithmicFrom * least;
+  logarithmic_ = least > 0 && (scale == PlotScale::logarithmic || most > kLogarithmicFrom * least);
   if (logarithmic_) {
     low_ = round_down(least / 1.5);  // some bars reach below the means
     high_ = round_up(top);

@@ -4,13 +4,18 @@
 
 namespace vantage {
 
-/// A vertical axis: from values to shares of its height, 0 at the bottom and 1 at the top.
-/// Logarithmic where values differ by more than ten times and none is zero.
+enum class PlotScale {
+  automatic,    ///< logarithmic where values differ by more than ten times and none is zero
+  logarithmic,  ///< unless some value is zero
+};
+
+/// An axis: from values to shares of its length, 0 at the bottom (or left) and 1 at the other end.
 class PlotAxis {
  public:
   /// @param values that have to be on the axis, finite and not negative.
   /// @param reach  the upper ends of their error bars.
-  PlotAxis(const std::vector<double>& values, const std::vector<double>& reach);
+  PlotAxis(const std::vector<double>& values, const std::vector<double>& reach,
+           PlotScale scale = PlotScale::automatic);
 
   bool logarithmic() const noexcept { return logarithmic_; }
   double low() const noexcept { return low_; }
