@@ -24,10 +24,10 @@ WorldModel true_world(const SimulatedScene& scene, std::span<const PinholeCamera
 }  // namespace
 
 GroundTruth::GroundTruth(const SimulatedScene& scene, std::span<const PinholeCamera> cameras,
-                         const GridGeometry& geometry) {
-  const WorldModel world = true_world(scene, cameras);
-  grid_ = classify(world, geometry, {.occluders = OccluderMode::mesh, .anti_alias = false});
-  rays_ = known_scene(world);
+                         const GridGeometry& geometry)
+    : world_(true_world(scene, cameras)) {
+  grid_ = classify(world_, geometry, {.occluders = OccluderMode::mesh, .anti_alias = false});
+  rays_ = known_scene(world_);
 }
 
 double GroundTruth::seen_m3(const StateGrid& believed, const PinholeCamera& view) const {

@@ -5,7 +5,7 @@
 
 #include "simulator/simulated_scene.hpp"
 #include "vantage/raycore/camera.hpp"
-#include "vantage/raycore/stop_token.hpp"
+#include "vantage/raycore/world_model.hpp"
 #include "vantage/volume/state_grid.hpp"
 
 namespace vantage {
@@ -23,6 +23,11 @@ class GroundTruth {
   /// `occupied`: the centre is inside a body. `free`: some camera sees it. `shadow`: neither; the
   /// volume that is truly hidden (or in no camera's view).
   const StateGrid& grid() const noexcept { return *grid_; }
+  const std::shared_ptr<const StateGrid>& shared_grid() const noexcept { return grid_; }
+
+  /// Everything that stands there, as if all of it were known, and the cameras without depth.
+  /// `grid()` is a classification of it.
+  const WorldModel& world() const noexcept { return world_; }
 
   /// The true gain: how much of the hidden volume a new view really sees.
   double gain_m3(const PinholeCamera& view) const { return seen_m3(grid(), view); }
@@ -33,6 +38,7 @@ class GroundTruth {
   double seen_m3(const StateGrid& believed, const PinholeCamera& view) const;
 
  private:
+  WorldModel world_;
   std::shared_ptr<const StateGrid> grid_;
   std::shared_ptr<const Scene> rays_;
 };
