@@ -47,18 +47,21 @@ void attach(const SceneImpl& impl, RTCScene scene, RTCGeometry geometry, ObjectI
   impl.check();
 }
 
-void attach_mesh(const SceneImpl& impl, RTCScene scene, const TriangleMesh& mesh, ObjectId id) {
-  if (mesh.empty()) return;
+ObjectTriangles attach_mesh(const SceneImpl& impl, RTCScene scene, const TriangleMesh& mesh,
+                            ObjectId id) {
+  if (mesh.empty()) return {};
   RTCGeometry geometry = rtcNewGeometry(impl.device, RTC_GEOMETRY_TYPE_TRIANGLE);
   const auto fill = [&](RTCBufferType type, RTCFormat format, const auto& items) {
     const std::size_t item_bytes = sizeof(items[0]);
     void* buffer = rtcSetNewGeometryBuffer(geometry, type, 0, format, item_bytes, items.size());
     impl.check();
     std::memcpy(buffer, items.data(), items.size() * item_bytes);
+    return static_cast<decltype(items.data())>(buffer);
   };
-  fill(RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, mesh.vertices());
-  fill(RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT3, mesh.triangles());
+  const ObjectTriangles copies{fill(RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, mesh.vertices()),
+                               fill(RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT3, mesh.triangles())};
   attach(impl, scene, geometry, id);
+  return copies;
 }
 
 void commit(const SceneImpl& impl, RTCScene scene) {
@@ -74,22 +77,28 @@ void commit(const SceneImpl& impl, RTCScene scene) {
 
 struct SceneBuilder::Impl {
   std::unique_ptr<detail::SceneImpl> scene = std::make_unique<detail::SceneImpl>();
-  std::map<std::shared_ptr<const TriangleMesh>, RTCScene> shared;
+  struct SharedMesh {
+    RTCScene scene;
+    detail::ObjectTriangles triangles;
+  };
+  std::map<std::shared_ptr<const TriangleMesh>, SharedMesh> shared;
 
   ObjectId next_object(const Eigen::Matrix3f& normal_to_world) {
     scene->normal_to_world.push_back(normal_to_world);
+    scene->triangles.emplace_back();
     return ObjectId(scene->normal_to_world.size() - 1);
   }
 
-  RTCScene shared_scene(const std::shared_ptr<const TriangleMesh>& mesh) {
-    const auto [entry, is_new] = shared.try_emplace(mesh, nullptr);
+  const SharedMesh& shared_mesh(const std::shared_ptr<const TriangleMesh>& mesh) {
+    const auto [entry, is_new] = shared.try_emplace(mesh);
+    SharedMesh& found = entry->second;
     if (is_new) {
-      entry->second = rtcNewScene(scene->device);
-      scene->shared.push_back(entry->second);
-      detail::attach_mesh(*scene, entry->second, *mesh, 0);
-      detail::commit(*scene, entry->second);
+      found.scene = rtcNewScene(scene->device);
+      scene->shared.push_back(found.scene);
+      found.triangles = detail::attach_mesh(*scene, found.scene, *mesh, 0);
+      detail::commit(*scene, found.scene);
     }
-    return entry->second;
+    return found;
   }
 };
 
@@ -98,7 +107,7 @@ SceneBuilder::~SceneBuilder() = default;
 
 ObjectId SceneBuilder::add_mesh(const TriangleMesh& mesh) {
   const ObjectId id = impl_->next_object(Eigen::Matrix3f::Identity());
-  detail::attach_mesh(*impl_->scene, impl_->scene->top, mesh, id);
+  impl_->scene->triangles[id] = detail::attach_mesh(*impl_->scene, impl_->scene->top, mesh, id);
   impl_->scene->triangle_count += mesh.triangles().size();
   return id;
 }
@@ -124,7 +133,9 @@ ObjectId SceneBuilder::add_instance(std::shared_ptr<const TriangleMesh> mesh,
   Eigen::Matrix<float, 3, 4> transform;
   transform << rotation, place.cast<float>();
   RTCGeometry geometry = rtcNewGeometry(scene.device, RTC_GEOMETRY_TYPE_INSTANCE);
-  rtcSetGeometryInstancedScene(geometry, impl_->shared_scene(mesh));
+  const Impl::SharedMesh& shared = impl_->shared_mesh(mesh);
+  scene.triangles[id] = {shared.triangles.vertices, shared.triangles.triangles, true, T_world_mesh};
+  rtcSetGeometryInstancedScene(geometry, shared.scene);
   rtcSetGeometryTimeStepCount(geometry, 1);
   rtcSetGeometryTransform(geometry, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, transform.data());
   detail::attach(scene, scene.top, geometry, id);

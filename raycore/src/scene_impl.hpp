@@ -1,12 +1,33 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cstddef>
 #include <vector>
 
 #include "embree.hpp"
+#include "vantage/raycore/pose.hpp"
+#include "vantage/raycore/triangle_mesh.hpp"
 
 namespace vantage::detail {
+
+/// An object's triangles where Embree keeps them: they live as long as the scene.
+struct ObjectTriangles {
+  const Eigen::Vector3f* vertices = nullptr;
+  const Triangle* triangles = nullptr;
+  bool is_instance = false;
+  Pose T_world_mesh = {};  ///< of an instance
+
+  /// In the world frame.
+  std::array<Eigen::Vector3d, 3> corners(std::uint32_t triangle) const {
+    std::array<Eigen::Vector3d, 3> result;
+    for (std::size_t i = 0; i < 3; ++i) {
+      result[i] = vertices[triangles[triangle][i]].cast<double>();
+      if (is_instance) result[i] = T_world_mesh * result[i];
+    }
+    return result;
+  }
+};
 
 /// Owns Embree's device and scenes. Geometry ids of the top scene are ObjectIds, for instances too.
 struct SceneImpl {
@@ -14,6 +35,7 @@ struct SceneImpl {
   RTCScene top = nullptr;
   std::vector<RTCScene> shared;                  ///< one per mesh that is instanced
   std::vector<Eigen::Matrix3f> normal_to_world;  ///< one per object; identity but for instances
+  std::vector<ObjectTriangles> triangles;        ///< one per object
   std::size_t triangle_count = 0;
   bool has_instances = false;
 
