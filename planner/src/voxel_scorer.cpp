@@ -1,75 +1,50 @@
 #include "vantage/planner/voxel_scorer.hpp"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
-#include <atomic>
-#include <span>
 
 namespace vantage {
 namespace {
 
-// Large enough to fill packets after the field-of-view test, small enough to stop within a
-// millisecond and to stay in the first caches.
-constexpr std::size_t kBlockPoints = 4096;
-
-std::size_t block_count(std::size_t points) {
-  return (points + kBlockPoints - 1) / kBlockPoints;
+Points points_of(PointsView view) {
+  Points points(view.size);
+  std::copy_n(view.x, view.size, points.x.begin());
+  std::copy_n(view.y, view.size, points.y.begin());
+  std::copy_n(view.z, view.size, points.z.begin());
+  return points;
 }
 
-/// Marks in `seen` the points that a camera sees, and counts them.
-std::uint64_t see_block(const PinholeCamera& camera, const Scene& occluders, PointsView points,
-                        std::span<std::uint8_t> seen) {
-  camera.in_view(points, seen);
-  Points in_view;
-  in_view.reserve(points.size);
-  for (std::size_t i = 0; i < points.size; ++i) {
-    if (seen[i] != 0) in_view.push_back(points[i]);
-  }
-  std::vector<std::uint8_t> hidden(in_view.size());
-  occluders.occluded(in_view, camera.centre().cast<float>(), hidden);
-  std::uint64_t count = 0;
-  std::size_t next = 0;
-  for (std::size_t i = 0; i < points.size; ++i) {
-    if (seen[i] == 0) continue;
-    seen[i] = std::uint8_t(1 - hidden[next++]);
-    count += seen[i];
-  }
-  return count;
+/// The scene's occluders, which live as long as the result does.
+std::shared_ptr<const Scene> occluders_of(const PlanningScene& scene) {
+  const auto owner = std::make_shared<const PlanningScene>(scene);
+  return {owner, &owner->occluders()};
 }
 
 }  // namespace
 
-VoxelScorer::VoxelScorer(const StateGrid& grid, std::shared_ptr<const Scene> occluders)
-    : shadow_(grid.centres(VoxelState::shadow)), occluders_(std::move(occluders)) {}
+VoxelScorer::VoxelScorer(const PlanningScene& scene)
+    : voxel_volume_m3_(scene.grid().geometry().voxel_volume_m3()),
+      points_(points_of(scene.shadow_centres()), occluders_of(scene)) {}
 
-std::optional<std::uint64_t> VoxelScorer::count_revealed(const PinholeCamera& camera,
-                                                         const StopToken& stop) const {
-  std::atomic<std::uint64_t> count{0};
-  std::atomic<bool> stopped{false};
-  tbb::parallel_for(std::size_t(0), block_count(shadow_.size()), [&](std::size_t block) {
-    if (stop.stop_requested()) {
-      stopped.store(true);
-      return;
-    }
-    const std::size_t first = block * kBlockPoints;
-    const std::size_t size = std::min(kBlockPoints, shadow_.size() - first);
-    std::vector<std::uint8_t> seen(size);
-    count += see_block(camera, *occluders_, shadow_.view().part(first, size), seen);
-  });
-  if (stopped.load()) return std::nullopt;
-  return count.load();
+Score VoxelScorer::upper_bound(const PinholeCamera& view) const {
+  return points_.upper_bound(view);
 }
 
-std::vector<std::uint8_t> VoxelScorer::revealed(const PinholeCamera& camera) const {
-  std::vector<std::uint8_t> seen(shadow_.size());
-  tbb::parallel_for(std::size_t(0), block_count(shadow_.size()), [&](std::size_t block) {
-    const std::size_t first = block * kBlockPoints;
-    const std::size_t size = std::min(kBlockPoints, shadow_.size() - first);
-    see_block(camera, *occluders_, shadow_.view().part(first, size),
-              std::span(seen).subspan(first, size));
-  });
-  return seen;
+void VoxelScorer::score(std::span<const PinholeCamera> views, std::span<const Score> needed,
+                        std::span<ScoreBound> results, const StopToken& stop) const {
+  points_.count(views, needed, results, stop);
+}
+
+std::vector<ScoreTerm> VoxelScorer::terms(const PinholeCamera& view) const {
+  const std::uint64_t in_view = points_.count_in_view(view), revealed = score(view).score;
+  return {{"voxels out of view", double(points_.size() - in_view)},
+          {"voxels in view", double(in_view)},
+          {"voxels hidden by something occupied", double(in_view - revealed)},
+          {"voxels revealed", double(revealed)},
+          {"volume revealed", double(revealed) * voxel_volume_m3_, "m³"}};
+}
+
+std::vector<std::uint8_t> VoxelScorer::revealed(const PinholeCamera& view) const {
+  return points_.visible(view);
 }
 
 }  // namespace vantage

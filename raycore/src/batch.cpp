@@ -24,15 +24,29 @@ void check_batch_size(const char* what, std::size_t size, std::size_t expected) 
   throw bad_input("batch", fmt::format("{} has {} elements; expected {}", what, size, expected));
 }
 
+void check_packets(std::size_t points, std::span<const std::uint32_t> packets,
+                   std::initializer_list<std::size_t> sizes) {
+  for (const std::size_t size : sizes) check_batch_size("an array", size, packets.size());
+  for (const std::uint32_t packet : packets) {
+    if (packet < points / kPacketWidth) continue;
+    throw bad_input("batch", fmt::format("packet {} of {} points; expected packets of {} that are "
+                                         "there in full",
+                                         packet, points, kPacketWidth));
+  }
+}
+
+void refuse_segment(std::size_t index, const Eigen::Vector3f& from, const Eigen::Vector3f& to) {
+  const bool zero = in_reach(from) && from == to;
+  throw bad_input(
+      fmt::format("segment {}", index),
+      fmt::format("it goes from {} to {}; expected {}", text(from), text(to),
+                  zero ? "two different points" : "finite coordinates within 1e9 m of the origin"));
+}
+
 void refuse_first_segment(PointsView from, const PointLanes& to) {
   for (std::size_t i = 0; i < from.size; ++i) {
     const Eigen::Vector3f o = from[i], t = to[i];
-    if (valid_segment(o.x(), o.y(), o.z(), t.x(), t.y(), t.z())) continue;
-    const bool zero = in_reach(o) && o == t;
-    throw bad_input(fmt::format("segment {}", i),
-                    fmt::format("it goes from {} to {}; expected {}", text(o), text(t),
-                                zero ? "two different points"
-                                     : "finite coordinates within 1e9 m of the origin"));
+    if (!valid_segment(o.x(), o.y(), o.z(), t.x(), t.y(), t.z())) refuse_segment(i, o, t);
   }
   throw std::logic_error("no segment is invalid");
 }

@@ -36,6 +36,8 @@ void check_batch_size(const char* what, std::size_t size, std::size_t expected);
 /// Called when a batch held a ray that Embree must not see.
 /// @throws Error bad_input that names the first such ray and what is wrong with it.
 [[noreturn]] void refuse_first_segment(PointsView from, const PointLanes& to);
+[[noreturn]] void refuse_segment(std::size_t index, const Eigen::Vector3f& from,
+                                 const Eigen::Vector3f& to);
 [[noreturn]] void refuse_first_ray(const PointLanes& origins, PointsView directions);
 
 }  // namespace vantage::detail

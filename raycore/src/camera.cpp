@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string>
 
+#include "packet.hpp"
 #include "pixel_direction.hpp"
 #include "vantage/raycore/error.hpp"
 #include "vantage/raycore/multiversion.hpp"
@@ -45,18 +46,37 @@ struct ViewBounds {
         far_m(float(range.far_m)) {}
 };
 
+/// The one test that every variant of in_view makes, to the bit.
+[[gnu::always_inline]] inline bool is_in_view(const WorldToCamera& c, const ViewBounds& b, float px,
+                                              float py, float pz) {
+  const float dx = px - c.cx, dy = py - c.cy, dz = pz - c.cz;
+  const float x = c.r[0] * dx + c.r[1] * dy + c.r[2] * dz;
+  const float y = c.r[3] * dx + c.r[4] * dy + c.r[5] * dz;
+  const float z = c.r[6] * dx + c.r[7] * dy + c.r[8] * dz;
+  const float u = b.fx * x, v = b.fy * y;
+  return (z >= b.near_m) & (z <= b.far_m) & (u + b.left * z >= 0) & (u + b.right * z < 0) &
+         (v + b.top * z >= 0) & (v + b.bottom * z < 0);
+}
+
 VANTAGE_MULTIVERSION
 void in_view_kernel(const WorldToCamera& c, const ViewBounds& b, const float* __restrict px,
                     const float* __restrict py, const float* __restrict pz, std::size_t count,
                     std::uint8_t* __restrict result) {
   for (std::size_t i = 0; i < count; ++i) {
-    const float dx = px[i] - c.cx, dy = py[i] - c.cy, dz = pz[i] - c.cz;
-    const float x = c.r[0] * dx + c.r[1] * dy + c.r[2] * dz;
-    const float y = c.r[3] * dx + c.r[4] * dy + c.r[5] * dz;
-    const float z = c.r[6] * dx + c.r[7] * dy + c.r[8] * dz;
-    const float u = b.fx * x, v = b.fy * y;
-    result[i] = std::uint8_t((z >= b.near_m) & (z <= b.far_m) & (u + b.left * z >= 0) &
-                             (u + b.right * z < 0) & (v + b.top * z >= 0) & (v + b.bottom * z < 0));
+    result[i] = std::uint8_t(is_in_view(c, b, px[i], py[i], pz[i]));
+  }
+}
+
+VANTAGE_MULTIVERSION
+void in_view_packets_kernel(const WorldToCamera& c, const ViewBounds& b, PointsView points,
+                            const std::uint32_t* packets, std::size_t count, std::uint16_t* masks) {
+  for (std::size_t i = 0; i < count; ++i) {
+    const PointsView packet = points.part(packets[i] * kPacketWidth, kPacketWidth);
+    std::uint8_t flags[kPacketWidth];
+    for (std::size_t lane = 0; lane < kPacketWidth; ++lane) {
+      flags[lane] = std::uint8_t(is_in_view(c, b, packet.x[lane], packet.y[lane], packet.z[lane]));
+    }
+    masks[i] = detail::to_bits(flags);
   }
 }
 
@@ -178,6 +198,13 @@ void PinholeCamera::in_view(PointsView p_world, std::span<std::uint8_t> result) 
   check_sizes({result.size()}, p_world.size);
   in_view_kernel(WorldToCamera(T_world_cam_), ViewBounds(intrinsics_, range_), p_world.x, p_world.y,
                  p_world.z, p_world.size, result.data());
+}
+
+void PinholeCamera::in_view(PointsView p_world, std::span<const std::uint32_t> packets,
+                            std::span<std::uint16_t> masks) const {
+  detail::check_packets(p_world.size, packets, {masks.size()});
+  in_view_packets_kernel(WorldToCamera(T_world_cam_), ViewBounds(intrinsics_, range_), p_world,
+                         packets.data(), packets.size(), masks.data());
 }
 
 }  // namespace vantage

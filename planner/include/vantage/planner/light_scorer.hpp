@@ -11,6 +11,10 @@
 
 namespace vantage {
 
+namespace detail {
+struct SurfaceSamples;
+}
+
 /// The light method (thesis 7.1): the cameras are lamps, and a view is worth the area of the known
 /// objects' and static structures' surfaces in the work area that no camera lights and it would.
 ///
@@ -30,6 +34,8 @@ class VANTAGE_API LightScorer final : public ViewScorer {
   std::vector<ScoreTerm> terms(const PinholeCamera& view) const override;
 
  private:
+  LightScorer(const detail::SurfaceSamples& samples, const WorldModel& world);
+
   double area_per_point_m2_;
   VisiblePoints dark_;
 };

@@ -21,6 +21,7 @@ namespace vantage {
 /// Immutable; every method is thread-safe and runs in the calling thread.
 class VANTAGE_API VisiblePoints {
  public:
+  /// @throws Error bad_input for a point that is not finite.
   VisiblePoints(Points points, std::shared_ptr<const Scene> occluders);
   ~VisiblePoints();
   VisiblePoints(VisiblePoints&&) noexcept;
@@ -32,11 +33,15 @@ class VANTAGE_API VisiblePoints {
   Score upper_bound(const PinholeCamera& view) const;
 
   /// As `ViewScorer::score`.
+  /// @throws Error bad_input for spans of different sizes, and for views with different centres.
   void count(std::span<const PinholeCamera> views, std::span<const Score> needed,
              std::span<ScoreBound> results, const StopToken& stop) const;
 
   /// 1 or 0 for every point, in the order in which they were given.
   std::vector<std::uint8_t> visible(const PinholeCamera& view) const;
+
+  /// Points inside the image and the depth range, hidden or not.
+  std::uint64_t count_in_view(const PinholeCamera& view) const;
 
  private:
   struct Impl;

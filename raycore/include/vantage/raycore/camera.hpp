@@ -93,6 +93,12 @@ class VANTAGE_API PinholeCamera {
   /// @throws Error bad_input unless `result` has `p_world.size` elements.
   void in_view(PointsView p_world, std::span<std::uint8_t> result) const;
 
+  /// The same, to the bit, for some packets of the points: bit l of `masks[i]` for point l of
+  /// packet `packets[i]`.
+  /// @throws Error bad_input unless both spans are of one size, and every packet is there in full.
+  void in_view(PointsView p_world, std::span<const std::uint32_t> packets,
+               std::span<std::uint16_t> masks) const;
+
  private:
   Intrinsics intrinsics_;
   Pose T_world_cam_;

@@ -6,6 +6,9 @@
 
 namespace vantage {
 
+/// Rays are traced sixteen at a time. Packet p of an array of points is points 16 p to 16 p + 15.
+inline constexpr std::size_t kPacketWidth = 16;
+
 /// A read-only view of N points or directions, one array per coordinate. Does not own them.
 struct PointsView {
   const float* x = nullptr;

@@ -106,6 +106,14 @@ class VANTAGE_API Scene {
   void occluded(PointsView from, const Eigen::Vector3f& to, std::span<std::uint8_t> result,
                 RayOrder order = RayOrder::incoherent) const;
 
+  /// The same for some packets of the points, for callers who ask piece by piece: bit l of
+  /// `hidden[i]` for point l of packet `packets[i]`, if bit l of `wanted[i]` is set; 0 if not.
+  /// Runs in the calling thread.
+  /// @throws Error bad_input unless the last three spans are of one size, and every packet is there
+  /// in full.
+  void occluded(PointsView from, const Eigen::Vector3f& to, std::span<const std::uint32_t> packets,
+                std::span<const std::uint16_t> wanted, std::span<std::uint16_t> hidden) const;
+
   std::optional<Hit> closest_hit(const Ray& ray) const;
 
   /// N rays with 0 <= t. `hits` is resized to N.

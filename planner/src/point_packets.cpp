@@ -1,0 +1,118 @@
+#include "point_packets.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <utility>
+
+namespace vantage::detail {
+namespace {
+
+/// Two zero bits between each of the lower 21 bits of `v`.
+std::uint64_t with_gaps(std::uint64_t v) {
+  v = (v | v << 32) & 0x001F00000000FFFF;
+  v = (v | v << 16) & 0x001F0000FF0000FF;
+  v = (v | v << 8) & 0x100F00F00F00F00F;
+  v = (v | v << 4) & 0x10C30C30C30C30C3;
+  v = (v | v << 2) & 0x1249249249249249;
+  return v;
+}
+
+struct Corners {
+  Eigen::Vector3d min, max;
+};
+
+Corners corners(PointsView points) {
+  Corners box{points[0].cast<double>(), points[0].cast<double>()};
+  for (std::size_t i = 1; i < points.size; ++i) {
+    const Eigen::Vector3d p = points[i].cast<double>();
+    box.min = box.min.cwiseMin(p), box.max = box.max.cwiseMax(p);
+  }
+  return box;
+}
+
+/// The points' places along a Z-shaped curve through their box; among equals as given.
+std::vector<std::uint32_t> curve_order(PointsView points) {
+  const Corners box = corners(points);
+  const double longest = std::max((box.max - box.min).maxCoeff(), 1e-30);
+  const double scale = double((1 << 21) - 1) / longest;
+  std::vector<std::pair<std::uint64_t, std::uint32_t>> keys(points.size);
+  for (std::size_t i = 0; i < points.size; ++i) {
+    const Eigen::Vector3d p = (points[i].cast<double>() - box.min) * scale;
+    keys[i] = {with_gaps(std::uint64_t(p.x())) << 2 | with_gaps(std::uint64_t(p.y())) << 1 |
+                   with_gaps(std::uint64_t(p.z())),
+               std::uint32_t(i)};
+  }
+  std::sort(keys.begin(), keys.end());
+  std::vector<std::uint32_t> order(points.size);
+  std::transform(keys.begin(), keys.end(), order.begin(),
+                 [](const auto& key) { return key.second; });
+  return order;
+}
+
+/// 0 … count - 1 by their bits read backwards (J. van der Corput, 1935).
+std::vector<std::uint32_t> spread_order(std::size_t count) {
+  std::vector<std::uint32_t> order;
+  order.reserve(count);
+  const int bits = std::bit_width(count - 1);
+  for (std::size_t i = 0; i < std::size_t(1) << bits; ++i) {
+    std::size_t reversed = 0;
+    for (int bit = 0; bit < bits; ++bit) reversed |= (i >> bit & 1) << (bits - 1 - bit);
+    if (reversed < count) order.push_back(std::uint32_t(reversed));
+  }
+  return order;
+}
+
+BoxLanes block_boxes(PointsView points) {
+  BoxLanes boxes;
+  for (std::size_t first = 0; first < points.size; first += kPointsPerBlock) {
+    const std::size_t count = std::min(kPointsPerBlock, points.size - first);
+    const Corners box = corners(points.part(first, count));
+    boxes.push_back(box.min, box.max);
+  }
+  return boxes;
+}
+
+BoxLanes parent_boxes(const BoxLanes& below) {
+  BoxLanes boxes;
+  for (std::size_t first = 0; first < below.size(); first += kBlocksPerParent) {
+    Corners box{Eigen::Vector3d::Constant(1e300), Eigen::Vector3d::Constant(-1e300)};
+    for (std::size_t i = first; i < std::min(first + kBlocksPerParent, below.size()); ++i) {
+      const Eigen::Vector3d centre(below.centre_x[i], below.centre_y[i], below.centre_z[i]);
+      const Eigen::Vector3d half(below.half_x[i], below.half_y[i], below.half_z[i]);
+      box.min = box.min.cwiseMin(centre - half), box.max = box.max.cwiseMax(centre + half);
+    }
+    boxes.push_back(box.min, box.max);
+  }
+  return boxes;
+}
+
+}  // namespace
+
+void BoxLanes::push_back(const Eigen::Vector3d& min, const Eigen::Vector3d& max) {
+  const Eigen::Vector3d centre = 0.5 * (min + max), half = 0.5 * (max - min);
+  centre_x.push_back(centre.x()), centre_y.push_back(centre.y()), centre_z.push_back(centre.z());
+  half_x.push_back(half.x()), half_y.push_back(half.y()), half_z.push_back(half.z());
+}
+
+PointPackets::PointPackets(const Points& given) : size(given.size()), levels(1) {
+  if (size == 0) return;
+  original = curve_order(given);
+  const std::size_t packet_count = (size + kPacketWidth - 1) / kPacketWidth;
+  points.resize(packet_count * kPacketWidth);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    points.set(i, given[original[std::min(i, size - 1)]]);
+  }
+  spread = spread_order(packet_count);
+  levels[0] = block_boxes(points);
+  while (levels.back().size() > 1) levels.push_back(parent_boxes(levels.back()));
+  const Corners box = corners(points);
+  largest_coordinate = std::max(box.min.cwiseAbs().maxCoeff(), box.max.cwiseAbs().maxCoeff());
+}
+
+std::size_t PointPackets::points_below(std::size_t level, std::size_t box) const {
+  std::size_t each = kPointsPerBlock;
+  for (std::size_t i = 0; i < level; ++i) each *= kBlocksPerParent;
+  return std::min(each, size - box * each);
+}
+
+}  // namespace vantage::detail

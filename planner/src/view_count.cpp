@@ -1,0 +1,137 @@
+#include "view_count.hpp"
+
+#include <algorithm>
+#include <bit>
+
+#include "vantage/raycore/multiversion.hpp"
+
+namespace vantage::detail {
+namespace {
+
+// Some 4,000 rays: small enough to stop within a fraction of a millisecond.
+constexpr std::size_t kMostPackets = 256;
+// Fewer are not worth the look at the bounds in between.
+constexpr std::size_t kFewestPackets = 4;
+
+/// How many of the possible points turned out to be not visible.
+VANTAGE_MULTIVERSION
+std::uint64_t count_lost(const std::uint16_t* possible, const std::uint16_t* in_view,
+                         const std::uint16_t* hidden, std::size_t size) {
+  std::uint64_t lost = 0;
+  for (std::size_t i = 0; i < size; ++i) {
+    lost += std::uint64_t(std::popcount(std::uint16_t(possible[i] & (~in_view[i] | hidden[i]))));
+  }
+  return lost;
+}
+
+void fill_blocks(const PointPackets& set, std::size_t level, std::size_t box, InView in_view,
+                 std::vector<InView>& blocks) {
+  std::size_t each = 1;
+  for (std::size_t i = 0; i < level; ++i) each *= kBlocksPerParent;
+  const std::size_t first = box * each, last = std::min(first + each, set.blocks());
+  std::fill(blocks.begin() + std::ptrdiff_t(first), blocks.begin() + std::ptrdiff_t(last), in_view);
+}
+
+}  // namespace
+
+ViewCount::ViewCount(const PointPackets& set, const Scene& occluders,
+                     std::span<const PinholeCamera> views, std::span<const Score> needed)
+    : set_(set), occluders_(occluders), views_(views), needed_(needed) {}
+
+void ViewCount::run(const StopToken& stop, std::span<ScoreBound> results) {
+  active_.reserve(views_.size());
+  for (std::size_t i = 0; i < views_.size(); ++i) admit(i, results[i]);
+  while (!active_.empty() && done_ < set_.packets()) {
+    if (stop.stop_requested()) {
+      for (const View& view : active_) results[view.index] = {};
+      return;
+    }
+    const std::size_t size = next_batch_size();
+    look_at(std::span(set_.spread).subspan(done_, size));
+    done_ += size;
+    if (done_ < set_.packets()) drop_hopeless(results);
+  }
+  for (const View& view : active_) results[view.index] = {ScoreBound::Known::exact, view.bound};
+}
+
+/// Takes a view in if its boxes do not say enough.
+void ViewCount::admit(std::size_t index, ScoreBound& result) {
+  const ViewFrustum frustum(views_[index], set_.largest_coordinate);
+  View view{index, 0, {}};
+  for_each_in_view(set_, frustum, [&](std::size_t level, std::size_t box, InView in_view) {
+    view.bound += set_.points_below(level, box);
+    if (in_view == InView::all && level + 1 == set_.levels.size()) return;
+    if (view.blocks.empty()) view.blocks.resize(set_.blocks(), InView::none);
+    fill_blocks(set_, level, box, in_view, view.blocks);
+  });
+  if (view.bound == 0) {
+    result = {ScoreBound::Known::exact, 0};
+  } else if (view.bound < needed_[index]) {
+    result = {ScoreBound::Known::at_most, view.bound};
+  } else {
+    active_.push_back(std::move(view));
+  }
+}
+
+/// No view can be out before as many packets as its bound has points to lose.
+std::size_t ViewCount::next_batch_size() const {
+  Score least = ~Score(0);
+  for (const View& view : active_) least = std::min(least, view.bound - needed_[view.index]);
+  const std::size_t wanted = std::size_t(std::min<Score>(least / kPacketWidth + 1, kMostPackets));
+  return std::min(std::max(wanted, kFewestPackets), set_.packets() - done_);
+}
+
+void ViewCount::look_at(std::span<const std::uint32_t> packets) {
+  const std::size_t size = packets.size();
+  lanes_.resize(size), hidden_.resize(size), wanted_.assign(size, 0);
+  for (std::size_t i = 0; i < size; ++i) lanes_[i] = set_.lanes(packets[i]);
+  possible_.resize(active_.size() * size), in_view_.resize(active_.size() * size);
+  for (std::size_t v = 0; v < active_.size(); ++v) {
+    std::uint16_t* const in_view = &in_view_[v * size];
+    find_in_view(active_[v], packets, &possible_[v * size], in_view);
+    for (std::size_t i = 0; i < size; ++i) wanted_[i] |= in_view[i];
+  }
+  occluders_.occluded(set_.points, views_[0].centre().cast<float>(), packets, wanted_, hidden_);
+  for (std::size_t v = 0; v < active_.size(); ++v) {
+    active_[v].bound -= count_lost(&possible_[v * size], &in_view_[v * size], hidden_.data(), size);
+  }
+}
+
+void ViewCount::find_in_view(const View& view, std::span<const std::uint32_t> packets,
+                             std::uint16_t* possible, std::uint16_t* in_view) {
+  if (view.blocks.empty()) {
+    std::copy(lanes_.begin(), lanes_.end(), possible);
+    std::copy(lanes_.begin(), lanes_.end(), in_view);
+    return;
+  }
+  unsure_.clear();
+  for (std::size_t i = 0; i < packets.size(); ++i) {
+    const InView block = view.blocks[packets[i] / kPacketsPerBlock];
+    possible[i] = in_view[i] = block == InView::none ? std::uint16_t(0) : lanes_[i];
+    if (block == InView::some) unsure_.push_back(packets[i]);
+  }
+  unsure_masks_.resize(unsure_.size());
+  views_[view.index].in_view(set_.points, unsure_, unsure_masks_);
+  std::size_t next = 0;
+  for (std::size_t i = 0; i < packets.size(); ++i) {
+    const InView block = view.blocks[packets[i] / kPacketsPerBlock];
+    if (block == InView::some) in_view[i] &= unsure_masks_[next++];
+  }
+}
+
+void ViewCount::drop_hopeless(std::span<ScoreBound> results) {
+  std::erase_if(active_, [&](const View& view) {
+    if (view.bound >= needed_[view.index]) return false;
+    results[view.index] = {ScoreBound::Known::at_most, view.bound};
+    return true;
+  });
+}
+
+std::vector<std::uint16_t> in_view_masks(const PointPackets& set, const PinholeCamera& view) {
+  std::vector<std::uint16_t> masks(set.packets());
+  view.in_view(set.points, set.spread, masks);
+  for (std::size_t i = 0; i < masks.size(); ++i) masks[i] &= set.lanes(set.spread[i]);
+  return masks;
+}
+
+}  // namespace vantage::detail

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "point_packets.hpp"
+#include "vantage/raycore/camera.hpp"
+
+namespace vantage::detail {
+
+/// How much of a box is in view, for certain.
+enum class InView : std::uint8_t { none, some, all };
+
+/// A point p is inside where x p.x + y p.y + z p.z + offset >= 0.
+struct ViewPlane {
+  double x, y, z, offset;
+  double margin;  ///< by how much rounding may change that
+};
+
+/// What a camera has in view, as six planes, for boxes by the dozen: certified as
+/// `BoxProjector::project` is, by the same planes and margin.
+class ViewFrustum {
+ public:
+  /// @param largest_coordinate of the points that the boxes are around.
+  ViewFrustum(const PinholeCamera& view, double largest_coordinate);
+
+  void test(const BoxLanes& boxes, std::size_t first, std::size_t count, InView* result) const;
+
+ private:
+  std::array<ViewPlane, 6> planes_;
+};
+
+/// Calls `visit(level, box, in_view)` for boxes that together hold every point that is in view:
+/// of the highest level at which a box is in view as a whole, or of level 0. Others are not named.
+template <class Visit>
+void for_each_in_view(const PointPackets& set, const ViewFrustum& frustum, const Visit& visit) {
+  const auto descend = [&](const auto& self, std::size_t level, std::size_t first) -> void {
+    std::array<InView, kBlocksPerParent> in_view;
+    const std::size_t count = std::min(kBlocksPerParent, set.levels[level].size() - first);
+    frustum.test(set.levels[level], first, count, in_view.data());
+    for (std::size_t i = 0; i < count; ++i) {
+      if (in_view[i] == InView::none) continue;
+      if (in_view[i] == InView::all || level == 0) {
+        visit(level, first + i, in_view[i]);
+      } else {
+        self(self, level - 1, (first + i) * kBlocksPerParent);
+      }
+    }
+  };
+  if (set.size > 0) descend(descend, set.levels.size() - 1, 0);
+}
+
+}  // namespace vantage::detail
