@@ -41,6 +41,7 @@ void add_evaluate_command(CLI::App& app, Action& action) {
   CLI::App* verb = app.add_subcommand("evaluate", "Hold results against the truth");
   verb->require_subcommand(1);
   add_gain(*verb, action);
+  add_evaluate_planning(*verb, action);
   add_evaluate_reconstruction(*verb, action);
 }
 

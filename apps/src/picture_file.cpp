@@ -15,6 +15,8 @@ namespace {
 
 constexpr int kJpegQuality = 85;
 
+}  // namespace
+
 std::string jpeg_bytes(const ColorImage& image) {
   cv::Mat bgr(image.height, image.width, CV_8UC3);
   for (int v = 0; v < image.height; ++v) {
@@ -27,8 +29,6 @@ std::string jpeg_bytes(const ColorImage& image) {
   cv::imencode(".jpg", bgr, bytes, {cv::IMWRITE_JPEG_QUALITY, kJpegQuality});
   return {bytes.begin(), bytes.end()};
 }
-
-}  // namespace
 
 void write_picture(const std::filesystem::path& path, const ColorImage& image) {
   const std::string ending = path.extension().string();

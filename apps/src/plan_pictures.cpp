@@ -69,13 +69,14 @@ class Stage {
   }
 
   /// Draws everything, and once more without what is half transparent, and lays one over the other.
-  void draw(const std::filesystem::path& path, const PinholeCamera& camera,
-            const StopToken& stop) const {
+  /// @returns nothing if it was stopped.
+  std::optional<ColorImage> draw(const PinholeCamera& camera, const StopToken& stop) const {
     std::vector<Prop> all = props_;
     all.insert(all.end(), veil_.begin(), veil_.end());
     const auto with_veil = picture(all, camera, opacity_, stop);
     const auto without = picture(props_, camera, 1 - opacity_, stop);
-    if (with_veil && without) write_png(path, blended(*with_veil, *without, opacity_));
+    if (!with_veil || !without) return std::nullopt;
+    return blended(*with_veil, *without, opacity_);
   }
 
  private:
@@ -112,13 +113,18 @@ class Stage {
 
 }  // namespace
 
-void write_overview(const std::filesystem::path& path, const Plan& plan, const WorldModel& world,
-                    int width, const StopToken& stop) {
+std::optional<ColorImage> overview(const Plan& plan, const WorldModel& world, int width,
+                                   const StopToken& stop) {
   Stage stage(plan);
   stage.add_voxels();
   stage.add_cameras(world);
   stage.add_floor();
-  stage.draw(path, overview_camera(plan, world, width), stop);
+  return stage.draw(overview_camera(plan, world, width), stop);
+}
+
+void write_overview(const std::filesystem::path& path, const Plan& plan, const WorldModel& world,
+                    int width, const StopToken& stop) {
+  if (const auto image = overview(plan, world, width, stop)) write_png(path, *image);
 }
 
 void write_suggested_view(const std::filesystem::path& path, const Plan& plan,
@@ -126,7 +132,8 @@ void write_suggested_view(const std::filesystem::path& path, const Plan& plan,
   Stage stage(plan);
   stage.add_voxels();
   stage.add_floor();
-  stage.draw(path, suggested_cameras(plan).at(0), stop);
+  const auto image = stage.draw(suggested_cameras(plan).at(0), stop);
+  if (image) write_png(path, *image);
 }
 
 void write_scene_model(const std::filesystem::path& path, const Plan& plan,

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 
 #include "vantage/planner/plan.hpp"
+#include "vantage/raycore/image.hpp"
 #include "vantage/raycore/stop_token.hpp"
 #include "vantage/raycore/world_model.hpp"
 
@@ -12,6 +14,9 @@ namespace vantage {
 /// view reveals cyan and half transparent, the given cameras grey, the suggested one red.
 
 /// The work area from outside, with all cameras and their frusta; `width` × 5/8 `width` pixels.
+/// Nothing if it was stopped.
+std::optional<ColorImage> overview(const Plan& plan, const WorldModel& world, int width,
+                                   const StopToken& stop = {});
 void write_overview(const std::filesystem::path& path, const Plan& plan, const WorldModel& world,
                     int width, const StopToken& stop = {});
 

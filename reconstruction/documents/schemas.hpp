@@ -11,5 +11,6 @@ const nlohmann::json& plan_schema();
 const nlohmann::json& world_schema();
 const nlohmann::json& observation_schema();
 const nlohmann::json& evaluation_schema();
+const nlohmann::json& planning_schema();
 
 }  // namespace vantage

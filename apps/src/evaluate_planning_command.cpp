@@ -1,0 +1,211 @@
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <iostream>
+#include <memory>
+
+#include "command.hpp"
+#include "evaluation/planning_tables.hpp"
+#include "inputs_json.hpp"
+#include "interrupt.hpp"
+#include "planning_json.hpp"
+#include "planning_runs.hpp"
+#include "progress_line.hpp"
+#include "vantage/raycore/file.hpp"
+#include "version.hpp"
+#include "workers.hpp"
+
+namespace vantage {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+constexpr int kPictureWidth = 960;
+
+struct PlanningArguments {
+  std::vector<std::string> scenes;
+  fs::path folder;
+  std::vector<std::string> methods{"voxel", "shadowD0", "shadowD3", "shadowD6", "light"};
+  std::vector<std::string> sets{"full", "production"};
+  std::string depth = "none";
+  std::uint64_t seed = 0;
+  PlanningSettings settings;
+  bool no_pictures = false, json = false;
+  int threads = 0;
+};
+
+/// All scenes, with what was read for them.
+struct PlanningResult {
+  PlanningEvaluation evaluation;
+  std::vector<PagePicture> pictures;
+  std::vector<fs::path> files;
+};
+
+PlanningSettings settings_of(const PlanningArguments& arguments) {
+  PlanningSettings settings = arguments.settings;
+  choose(arguments.methods, arguments.sets, settings);
+  settings.servo.check();
+  const bool drawn = !arguments.folder.empty() && !arguments.no_pictures;
+  settings.picture_width = drawn ? kPictureWidth : 0;
+  return settings;
+}
+
+/// Every cell is loaded before the first is evaluated: what is wrong is said at once.
+std::vector<PlanningCell> load_cells(const PlanningArguments& arguments) {
+  std::vector<PlanningCell> cells;
+  for (const std::string& scene : arguments.scenes) {
+    cells.push_back(load_planning_cell(planning_cell_name(scene), depth_kind_of(arguments.depth),
+                                       arguments.seed));
+  }
+  return cells;
+}
+
+PlanningResult evaluate_cells(const std::vector<PlanningCell>& cells,
+                              const PlanningSettings& settings, const StopToken& stop) {
+  PlanningResult result;
+  for (const NamedMethod& method : settings.methods) {
+    result.evaluation.methods.push_back(method.name);
+  }
+  result.evaluation.servo_iterations = settings.servo.iterations;
+  for (std::size_t i = 0; i < cells.size() && !stop.stop_requested(); ++i) {
+    EvaluatedScene one = evaluate_planning(cells[i], settings, stop);
+    for (PagePicture& picture : one.pictures) {
+      picture.scene = i;
+      result.pictures.push_back(std::move(picture));
+    }
+    result.evaluation.scenes.push_back(std::move(one.scene));
+    result.files.insert(result.files.end(), cells[i].files.begin(), cells[i].files.end());
+  }
+  return result;
+}
+
+Json config_json(const PlanningArguments& arguments, const PlanningSettings& settings) {
+  return {
+      {"scenes", arguments.scenes},
+      {"depth", arguments.depth},
+      {"seed", arguments.seed},
+      {"candidates", settings.sets},
+      {"servo",
+       {{"iterations", settings.servo.iterations}, {"image_width", settings.servo.image_width}}},
+      {"voxel_size_m", settings.voxel_size_m ? Json(*settings.voxel_size_m) : Json()}};
+}
+
+Json json_of(const PlanningResult& result, const PlanningArguments& arguments,
+             const PlanningSettings& settings) {
+  Json json = planning_to_json(result.evaluation);
+  Json timing = json["timing"];
+  json.erase("timing");
+  json["config"] = config_json(arguments, settings);
+  json["inputs"] = inputs_json(result.files);
+  json["timing"] = {{"threads", arguments.threads}, {"repeat", settings.repeat}};
+  json["timing"].update(timing);
+  return json;
+}
+
+std::vector<std::string> settings_text(const PlanningArguments& arguments,
+                                       const PlanningSettings& settings) {
+  return {fmt::format("vantage {}, servo of {} iterations, {}, run times: {} of {}.", kVersion,
+                      settings.servo.iterations,
+                      arguments.threads > 0 ? fmt::format("{} threads", arguments.threads)
+                                            : "as many threads as the machine has",
+                      settings.repeat > 1 ? "medians" : "one run", settings.repeat)};
+}
+
+void write(const PlanningArguments& arguments, const PlanningSettings& settings,
+           const PlanningResult& result, const Json& json) {
+  const fs::path& folder = arguments.folder;
+  fs::create_directories(folder);
+  write_file(folder / "planning.json", json.dump(1) + "\n");
+  for (const std::string& set : settings.sets) {
+    write_file(folder / ("planning_" + set + ".svg"), run_time_chart(result.evaluation, set));
+  }
+  write_file(folder / "planning.html",
+             planning_page(result.evaluation, result.pictures, settings_text(arguments, settings)));
+  spdlog::info("wrote {}, planning.json and charts", (folder / "planning.html").string());
+}
+
+std::string text_of(const PlanningEvaluation& evaluation) {
+  std::string text;
+  for (const SceneEvaluation& scene : evaluation.scenes) {
+    for (const std::string& remark : remarks_on(scene)) text += remark + "\n\n";
+  }
+  for (const ReportTable& table : planning_tables(evaluation)) text += table_text(table) + "\n";
+  return text;
+}
+
+ExitCode evaluate(const PlanningArguments& arguments) {
+  const StopToken stop;
+  const Interrupt interrupt({stop});
+  const PlanningSettings settings = settings_of(arguments);
+  Workers workers(arguments.threads);
+  const PlanningResult result = workers.execute([&] {
+    const std::vector<PlanningCell> cells = load_cells(arguments);
+    const ProgressLine progress("evaluating", stop);
+    return evaluate_cells(cells, settings, stop);
+  });
+  if (stop.stop_requested()) return ExitCode::cancelled;
+  const Json json = json_of(result, arguments, settings);
+  if (!arguments.folder.empty()) write(arguments, settings, result, json);
+  std::cout << (arguments.json ? json.dump(1) + "\n" : text_of(result.evaluation)) << std::flush;
+  return ExitCode::ok;
+}
+
+void add_input_options(CLI::App& verb, PlanningArguments& arguments) {
+  verb.add_option("scenes", arguments.scenes,
+                  "Workcell files, each with the cameras to use and the depth images that planning "
+                  "gets: FILE[:CAMERA,...][+none|+ideal|+noisy], e.g. wall.yaml:side "
+                  "corridor.yaml:left,right foreign_objects.yaml+ideal")
+      ->required();
+  verb.add_option("--depth", arguments.depth,
+                  "Depth images of scenes that do not say: none (known objects alone, as the "
+                  "thesis' methods), ideal, or the workcell's noisy sensor")
+      ->check(CLI::IsMember(kDepthKinds))
+      ->capture_default_str();
+  verb.add_option("--seed", arguments.seed, "Of the depth images' noise")->capture_default_str();
+}
+
+void add_method_options(CLI::App& verb, PlanningArguments& arguments) {
+  verb.add_option("--methods", arguments.methods,
+                  "Methods, e.g. voxel,shadowD6,light; D and a number is the power of the depth. "
+                  "voxel is always there: it is the measure")
+      ->delimiter(',')
+      ->capture_default_str();
+  verb.add_option("--candidates", arguments.sets,
+                  "Sets of views: full (34,225), production (40), or both")
+      ->delimiter(',')
+      ->check(CLI::IsMember({"full", "production"}))
+      ->capture_default_str();
+  verb.add_option("--servo", arguments.settings.servo.iterations, "Servo iterations; 0: none")
+      ->check(CLI::Range(0, 100))
+      ->capture_default_str();
+  verb.add_option("--voxel-size", arguments.settings.voxel_size_m,
+                  "Edge of a voxel, metres (default: the workcell's, else 0.009375)")
+      ->check(CLI::PositiveNumber);
+  verb.add_option("--repeat", arguments.settings.repeat,
+                  "Time everything so often; run times are medians")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+}
+
+}  // namespace
+
+void add_evaluate_planning(CLI::App& evaluate_verb, Action& action) {
+  CLI::App* verb = evaluate_verb.add_subcommand(
+      "planning",
+      "The thesis' chapter 9 on simulated workcells: which views the methods pick, how good they "
+      "are by the voxel method and in truth, and how long it takes");
+  const auto arguments = std::make_shared<PlanningArguments>();
+  add_input_options(*verb, *arguments);
+  add_method_options(*verb, *arguments);
+  verb->add_option("-o,--output", arguments->folder,
+                   "Folder for planning.html, planning.json and charts as SVG");
+  verb->add_flag("--no-pictures", arguments->no_pictures, "A page without pictures of the scenes");
+  verb->add_flag("--json", arguments->json, "Print planning.json instead of tables");
+  verb->add_option("--threads", arguments->threads, "Threads to use (0: all)")
+      ->check(CLI::Range(0, 1024));
+  verb->parse_complete_callback(
+      [&action, arguments] { action = [=] { return evaluate(*arguments); }; });
+}
+
+}  // namespace vantage
