@@ -59,7 +59,7 @@ bool plan_a_view_behind_a_wall() {
        nullptr});
   const vantage::Plan plan = vantage::plan_next_view(
       world, {.work_area = {{-0.1, -0.1, 0}, {0.1, 0.1, 0.1}}, .intrinsics = intrinsics});
-  return expect(plan.best && *plan.newly_observed_volume_m3(*plan.best) > 0,
+  return expect(plan.best() != nullptr && plan.views.front().revealed_voxels > 0,
                 "the next view reveals something behind the wall");
 }
 
