@@ -54,7 +54,7 @@ bool any_near(const SceneImpl& scene, const Eigen::Vector3d& p_world, double rad
 }
 
 void check_query(const Eigen::Vector3d& p_world, double distance_m) {
-  if (!(p_world.cwiseAbs().maxCoeff() <= double(kFarthestCoordinate))) {
+  if (!in_reach(float(p_world.x()), float(p_world.y()), float(p_world.z()))) {
     throw bad_input("point",
                     fmt::format("it is at {} m; expected finite coordinates within 1e9 m of the "
                                 "origin",

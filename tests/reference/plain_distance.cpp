@@ -51,18 +51,6 @@ double corner_to_face(const WorldTriangle& corners, const WorldTriangle& face) {
   return least;
 }
 
-double triangle_distance(const WorldTriangle& a, const WorldTriangle& b) {
-  if (edge_crosses(a, b) || edge_crosses(b, a)) return 0;
-  double least = std::min(corner_to_face(a, b), corner_to_face(b, a));
-  for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) {
-      least = std::min(least, between_segments(a.corners[i], a.corners[(i + 1) % 3], b.corners[j],
-                                               b.corners[(j + 1) % 3]));
-    }
-  }
-  return least;
-}
-
 struct Bounded {
   WorldTriangle triangle;
   Eigen::AlignedBox3d box;
@@ -80,6 +68,18 @@ std::vector<Bounded> in_world(const TriangleMesh& mesh, const Pose& T_world_mesh
 }
 
 }  // namespace
+
+double triangle_distance(const WorldTriangle& a, const WorldTriangle& b) {
+  if (edge_crosses(a, b) || edge_crosses(b, a)) return 0;
+  double least = std::min(corner_to_face(a, b), corner_to_face(b, a));
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) {
+      least = std::min(least, between_segments(a.corners[i], a.corners[(i + 1) % 3], b.corners[j],
+                                               b.corners[(j + 1) % 3]));
+    }
+  }
+  return least;
+}
 
 double surface_distance(const TriangleMesh& a, const Pose& T_world_a, const TriangleMesh& b,
                         const Pose& T_world_b) {

@@ -2,10 +2,14 @@
 
 #include <Eigen/Core>
 
+#include "reference/moller_trumbore.hpp"
 #include "vantage/raycore/pose.hpp"
 #include "vantage/raycore/triangle_mesh.hpp"
 
 namespace vantage::test {
+
+/// The least distance of two triangles, 0 where they cross.
+double triangle_distance(const WorldTriangle& a, const WorldTriangle& b);
 
 /// The least distance of two surfaces in double precision, 0 where they cross: every triangle of
 /// the one against every triangle of the other, points on edges found by bisection.

@@ -149,9 +149,10 @@ class VANTAGE_API Scene {
   bool closer_than(double distance_m, const Box& box, const Pose& T_world_box,
                    ObjectId object = kNoObject) const;
 
-  /// Whether a closed object surrounds a point (its winding number there is not 0). A mesh that is
-  /// not closed surrounds what it has above and below. Two rays decide; a point nearer to a surface
-  /// than 1e-6 of its coordinates may be either.
+  /// Whether a closed object that looks outwards surrounds a point. Three lines through it decide,
+  /// the majority of them: where surfaces coincide, a ray sees one of them only. A mesh that is not
+  /// closed may be taken for closed where it has faces on both sides of the point. Nothing that is
+  /// nearer to a surface than 1e-6 of its coordinates is certain.
   /// @throws Error bad_input unless the point is within 1e9 m.
   bool encloses(const Eigen::Vector3d& p_world) const;
 
