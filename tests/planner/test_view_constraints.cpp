@@ -1,0 +1,206 @@
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <set>
+
+#include "support/expect_error.hpp"
+#include "vantage/planner/view_constraints.hpp"
+#include "vantage/volume/classify.hpp"
+
+namespace vantage::test {
+namespace {
+
+constexpr double kInfinite = std::numeric_limits<double>::infinity();
+constexpr double kPi = std::numbers::pi;
+constexpr DepthRange kRange{0.05, 3};
+
+KnownObject box_object(const std::string& name, const Box& box) {
+  return {name, std::make_shared<const TriangleMesh>(TriangleMesh::from_box(box)), {}};
+}
+
+/// A cube of 10 cm that stands in a work area of 40 × 40 × 20 cm, seen by one camera from above; a
+/// wall outside it.
+struct Cell {
+  WorldModel world;
+  std::shared_ptr<const StateGrid> grid;
+
+  explicit Cell(bool with_camera = true) {
+    world.objects.push_back(box_object("cube", Box({-0.05, -0.05, 0}, {0.05, 0.05, 0.1})));
+    world.static_structures.push_back(box_object("wall", Box({0.9, -1, 0}, {1.1, 1, 1})));
+    if (with_camera) {
+      world.cameras.push_back({"above",
+                               PinholeCamera({200, 200, 100, 100, 99.5, 99.5},
+                                             Pose::looking_at({0, 0, 0.6}, {0, 0, 0}), {0.1, 2}),
+                               nullptr});
+    }
+    grid = classify(world, GridGeometry::covering(Box({-0.2, -0.2, 0}, {0.2, 0.2, 0.2}), 0.01));
+  }
+
+  Rejection check(const ViewConstraints& limits, const Eigen::Vector3d& eye,
+                  const Eigen::Vector3d& target = {0, 0, 0.0501}) const {
+    const ViewChecker checker(limits, PlanningScene(world, grid, OccluderMode::mesh), kRange);
+    return checker.check(Pose::looking_at(eye, target));
+  }
+};
+
+ReachMap two_cells() {
+  return {{0, 0, 0}, 0.5, {1, 1, 2}, {0, 1}};
+}
+
+}  // namespace
+
+TEST_CASE("without limits a view is in the open, above the floor") {
+  const Cell cell;
+  CHECK(cell.check({}, {0.5, 0, 0.2}) == Rejection::none);
+  CHECK(cell.check({}, {0.5, 0, 1e-9}) == Rejection::none);
+  CHECK(cell.check({}, {0.5, 0, 0}) == Rejection::below_the_floor);
+  CHECK(cell.check({}, {0.5, 0, -0.1}) == Rejection::below_the_floor);
+}
+
+TEST_CASE("a view is where the robot reaches: shell, box and map at once") {
+  const Cell cell;
+  const ViewConstraints shell{.reach = Reach{{0, 0, 0}, 0.3, 0.8}};
+  CHECK(cell.check(shell, {0.5, 0, 0.2}) == Rejection::none);
+  CHECK(cell.check(shell, {0.79, 0, 0.2}) == Rejection::out_of_reach);
+  CHECK(cell.check(shell, {0.2, 0, 0.2}) == Rejection::out_of_reach);
+  const ViewConstraints box{.reach_box = Box({-1, -1, 0.1}, {0.6, 0.6, 1})};
+  CHECK(cell.check(box, {0.5, 0, 0.2}) == Rejection::none);
+  CHECK(cell.check(box, {0.7, 0, 0.2}) == Rejection::out_of_reach);
+  CHECK(cell.check(box, {0.5, 0, 0.05}) == Rejection::out_of_reach);
+  const ViewConstraints map{.reach_map = std::make_shared<const ReachMap>(two_cells())};
+  CHECK(cell.check(map, {0.4, 0.1, 0.6}) == Rejection::none);
+  CHECK(cell.check(map, {0.4, 0.1, 0.4}) == Rejection::out_of_reach);
+  CHECK(cell.check(map, {0.6, 0.1, 0.6}) == Rejection::out_of_reach);
+  CHECK(cell.check(map, {-0.1, 0.1, 0.6}) == Rejection::out_of_reach);
+  ViewConstraints all = map;
+  all.reach = Reach{{0, 0, 0}, 0, 0.7};
+  CHECK(cell.check(all, {0.1, 0.1, 0.6}) == Rejection::none);
+  CHECK(cell.check(all, {0.4, 0.1, 0.6}) == Rejection::out_of_reach);
+}
+
+TEST_CASE("a reach map's cells are numbered with k fastest") {
+  ReachMap map{{-1, 2, 0}, 0.25, {2, 3, 4}, std::vector<std::uint8_t>(24)};
+  for (std::size_t cell = 0; cell < 24; ++cell) {
+    map.reachable.assign(24, 0);
+    map.reachable[cell] = 7;
+    for (std::size_t other = 0; other < 24; ++other) {
+      const Eigen::Vector3d index(double(other / 12), double(other / 4 % 3), double(other % 4));
+      const Eigen::Vector3d middle = index + Eigen::Vector3d::Constant(0.5);
+      CHECK(map.contains(map.origin_m + 0.25 * middle) == (cell == other));
+    }
+  }
+  CHECK_FALSE(map.contains({std::nan(""), 2.1, 0.1}));
+  CHECK_FALSE(map.contains({kInfinite, 2.1, 0.1}));
+}
+
+TEST_CASE("a view looks along the cone") {
+  const Cell cell;
+  ViewConstraints limits{.view_cone = ViewCone{{0, 0, -3}, 0.25 * kPi}};
+  CHECK(cell.check(limits, {0.3, 0, 0.5}) == Rejection::none);
+  CHECK(cell.check(limits, {0.6, 0, 0.5}) == Rejection::outside_the_view_cone);
+  CHECK(cell.check(limits, {0.45, 0, 0.5}, {0, 0, 0.05}) == Rejection::none);  // along its border
+  limits.view_cone->half_angle_rad = kPi;  // everywhere, even up
+  CHECK(cell.check(limits, {0.5, 0, 0.2}, {0.5, 0, 1}) == Rejection::none);
+}
+
+TEST_CASE("a camera is in nothing occupied, in the work area or beyond, and in no shadow") {
+  const Cell cell;
+  CHECK(cell.check({}, {0.03, 0.02, 0.03}) == Rejection::inside_occupied_volume);
+  CHECK(cell.check({}, {1, 0.3, 0.5}) == Rejection::inside_occupied_volume);  // in the wall
+  CHECK(cell.check({}, {1.2, 0.3, 0.5}) == Rejection::none);
+  const Cell dark(false);  // nobody looks: all that is not the cube is shadow
+  CHECK(dark.check({}, {0.15, 0.1, 0.1}) == Rejection::inside_shadow);
+  CHECK(dark.check({}, {0.03, 0.02, 0.03}) == Rejection::inside_occupied_volume);
+}
+
+TEST_CASE("what is nearer than the near depth would not be measured") {
+  const Cell dark(false);
+  CHECK(dark.check({}, {0.24, 0, 0.1}) == Rejection::too_close_to_shadow);  // 4 cm from it
+  CHECK(dark.check({}, {0.26, 0, 0.1}) == Rejection::none);
+  CHECK(dark.check({}, {0.235, 0.235, 0.1}) == Rejection::too_close_to_shadow);
+  CHECK(dark.check({}, {0.236, 0.236, 0.1}) == Rejection::none);  // beside an edge
+}
+
+TEST_CASE("the camera's body keeps its distance") {
+  const Cell cell;
+  const Eigen::Vector3d eye(0.7, 0, 0.5);  // 20 cm before the wall, which is at its back
+  CHECK(cell.check({.clearance_m = 0.19}, eye) == Rejection::none);
+  CHECK(cell.check({.clearance_m = 0.21}, eye) == Rejection::too_close_to_occupied);
+  CHECK(cell.check({.clearance_m = 0.1, .body = SphereBody{0.09}}, eye) == Rejection::none);
+  CHECK(cell.check({.clearance_m = 0.1, .body = SphereBody{0.11}}, eye) ==
+        Rejection::too_close_to_occupied);
+  const Eigen::Vector3d level(0, 0, 0.5);  // the axes of the camera are the world's
+  const auto with_length = [](double length_m, double clearance_m) {
+    return ViewConstraints{.clearance_m = clearance_m,
+                           .body = BoxBody{Box({-0.02, -0.02, -length_m}, {0.02, 0.02, 0})}};
+  };
+  CHECK(cell.check(with_length(0.15, 0.04), eye, level) == Rejection::none);
+  CHECK(cell.check(with_length(0.15, 0.06), eye, level) == Rejection::too_close_to_occupied);
+  CHECK(cell.check(with_length(0.19, 0), eye, level) == Rejection::none);
+  CHECK(cell.check(with_length(0.21, 0), eye, level) == Rejection::too_close_to_occupied);
+  CHECK(cell.check(with_length(0.21, 0), eye, {1, 0, 0.5}) == Rejection::none);  // turned round
+  // A box beside the camera that is inside the wall as a whole touches no face of it.
+  const ViewConstraints beside{.body = BoxBody{Box({-0.02, -0.02, -0.32}, {0.02, 0.02, -0.28})}};
+  CHECK(cell.check(beside, eye, level) == Rejection::too_close_to_occupied);
+}
+
+TEST_CASE("of several reasons the first one counts") {
+  const Cell dark(false);
+  ViewConstraints limits{
+      .reach = Reach{{0, 0, 0}, 5, 6}, .view_cone = ViewCone{{0, 0, 1}, 0.1}, .clearance_m = 1};
+  const Eigen::Vector3d in_cube(0.03, 0.02, 0.03), in_shadow(0.15, 0.1, 0.1), near(0.24, 0, 0.1);
+  CHECK(dark.check(limits, {0.03, 0.02, -0.1}) == Rejection::below_the_floor);
+  CHECK(dark.check(limits, in_cube) == Rejection::out_of_reach);
+  limits.reach.reset();
+  CHECK(dark.check(limits, in_cube) == Rejection::outside_the_view_cone);
+  limits.view_cone.reset();
+  CHECK(dark.check(limits, in_cube) == Rejection::inside_occupied_volume);
+  CHECK(dark.check(limits, in_shadow) == Rejection::inside_shadow);
+  CHECK(dark.check(limits, near) == Rejection::too_close_to_shadow);
+  CHECK(dark.check(limits, {0.5, 0, 0.1}) == Rejection::too_close_to_occupied);
+}
+
+TEST_CASE("every rejection has words of its own") {
+  std::set<std::string_view> words;
+  for (int reason = 0; reason <= int(Rejection::too_close_to_occupied); ++reason) {
+    CHECK(words.insert(to_text(Rejection(reason))).second);
+  }
+  CHECK(to_text(Rejection::below_the_floor) == "below the floor");
+}
+
+TEST_CASE("limits that make no sense are refused with their values") {
+  const Cell cell;
+  const auto refuses = [&](const ViewConstraints& limits, std::string_view where,
+                           std::string_view message) {
+    expect_bad_input(where, message, [&] { limits.check(); });
+    expect_bad_input(where, message, [&] { cell.check(limits, {0.5, 0, 0.2}); });
+  };
+  const auto with_map = [](const ReachMap& map) {
+    return ViewConstraints{.reach_map = std::make_shared<const ReachMap>(map)};
+  };
+  refuses({.reach = Reach{{0, 0, 0}, 0.9, 0.5}}, "reach", "from 0.9 to 0.5");
+  refuses({.reach = Reach{{0, 0, 0}, -1, 0.5}}, "reach", "from -1");
+  refuses({.reach = Reach{{0, kInfinite, 0}, 0, 0.5}}, "reach", "[0, inf, 0]");
+  refuses({.view_cone = ViewCone{{0, 0, 0}, 1}}, "view cone", "[0, 0, 0]");
+  refuses({.view_cone = ViewCone{{0, 0, kInfinite}, 1}}, "view cone", "[0, 0, inf]");
+  refuses({.view_cone = ViewCone{{0, 0, 1}, 0}}, "view cone", "0 rad");
+  refuses({.view_cone = ViewCone{{0, 0, 1}, 3.2}}, "view cone", "3.2 rad");
+  refuses({.clearance_m = -0.1}, "clearance", "-0.1 m");
+  refuses({.clearance_m = kInfinite}, "clearance", "inf m");
+  refuses({.body = SphereBody{std::nan("")}}, "radius of the camera's body", "nan m");
+  ReachMap map = two_cells();
+  map.size = {2, 1, 2};
+  refuses(with_map(map), "reach map", "2 values for 2 x 1 x 2 cells");
+  map.size = {-1, -1, 2};
+  refuses(with_map(map), "reach map", "-1 x -1 x 2");
+  map = two_cells();
+  map.cell_m = 0;
+  refuses(with_map(map), "reach map", "cells of 0 m");
+  map = two_cells();
+  map.origin_m.x() = std::nan("");
+  refuses(with_map(map), "reach map", "[nan, 0, 0]");
+}
+
+}  // namespace vantage::test

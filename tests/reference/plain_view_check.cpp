@@ -1,0 +1,127 @@
+#include "reference/plain_view_check.hpp"
+
+#include <Eigen/Geometry>
+#include <cmath>
+
+#include "reference/plain_nearness.hpp"
+
+namespace vantage::test {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kMargin = 1e-5;
+
+/// What a number says about being below a limit; it notes when that is a close call.
+struct Judge {
+  bool close_call = false;
+
+  bool below(double value, double limit) {
+    close_call |= std::abs(value - limit) < kMargin;
+    return value < limit;
+  }
+};
+
+bool in_box(const Box& box, const Vector3d& p, Judge& judge) {
+  bool inside = true;
+  for (int axis = 0; axis < 3; ++axis) {
+    inside &= !judge.below(p[axis], box.min()[axis]) && judge.below(p[axis], box.max()[axis]);
+  }
+  return inside;
+}
+
+/// Cell by cell, whether it is the one that the point is in.
+bool in_map(const ReachMap& map, const Vector3d& p, Judge& judge) {
+  std::size_t next = 0;
+  for (int i = 0; i < map.size.x(); ++i) {
+    for (int j = 0; j < map.size.y(); ++j) {
+      for (int k = 0; k < map.size.z(); ++k) {
+        const Vector3d min = map.origin_m + map.cell_m * Vector3d(i, j, k);
+        const Box cell(min, min + Vector3d::Constant(map.cell_m));
+        if (in_box(cell, p, judge)) return map.reachable[next] != 0;
+        ++next;
+      }
+    }
+  }
+  return false;
+}
+
+bool in_reach(const ViewConstraints& limits, const Vector3d& centre, Judge& judge) {
+  bool reached = true;
+  if (limits.reach) {
+    const double distance = (centre - limits.reach->base_m).norm();
+    reached &= !judge.below(distance, limits.reach->min_m);
+    reached &= judge.below(distance, limits.reach->max_m);
+  }
+  if (limits.reach_box) reached &= in_box(*limits.reach_box, centre, judge);
+  if (limits.reach_map) reached &= in_map(*limits.reach_map, centre, judge);
+  return reached;
+}
+
+ReferenceScene occupied_surfaces(const WorldModel& world, const StateGrid& grid) {
+  ReferenceScene scene;
+  ObjectId next = 0;
+  for (const KnownObject& object : world.objects) {
+    scene.add(*object.mesh, object.T_world_object, next++);
+  }
+  for (const KnownObject& object : world.static_structures) {
+    scene.add(*object.mesh, object.T_world_object, next++);
+  }
+  scene.add(grid.measured_faces(), {}, next);
+  return scene;
+}
+
+bool body_bumps(const ViewConstraints& limits, const ReferenceScene& occupied, const Pose& pose,
+                Judge& judge) {
+  if (const auto* body = std::get_if<BoxBody>(&limits.body)) {
+    const double distance = nearest_surface(occupied, body->box, pose);
+    if (distance == 0 || surrounded(occupied, pose * body->box.centre())) return true;
+    return judge.below(distance, limits.clearance_m);
+  }
+  double allowed = limits.clearance_m;
+  if (const auto* body = std::get_if<SphereBody>(&limits.body)) allowed += body->radius_m;
+  return allowed > 0 && judge.below(nearest_surface(occupied, pose.translation()), allowed);
+}
+
+Rejection first_reason(const WorldModel& world, const StateGrid& grid,
+                       const ViewConstraints& limits, const DepthRange& range, const Pose& pose,
+                       Judge& judge) {
+  const Vector3d centre = pose.translation();
+  if (judge.below(centre.z(), 0)) return Rejection::below_the_floor;
+  if (!in_reach(limits, centre, judge)) return Rejection::out_of_reach;
+  if (limits.view_cone) {
+    const Vector3d forward = pose.rotation().col(2), &axis = limits.view_cone->axis;
+    const double angle = std::atan2(forward.cross(axis).norm(), forward.dot(axis));
+    if (!judge.below(angle, limits.view_cone->half_angle_rad)) {
+      return Rejection::outside_the_view_cone;
+    }
+  }
+  VoxelState state = VoxelState::free;
+  if (const auto voxel = grid.geometry().voxel_at(centre)) state = grid.at(*voxel);
+  const ReferenceScene occupied = occupied_surfaces(world, grid);
+  judge.close_call |= nearest_surface(occupied, centre) < kMargin;
+  if (state == VoxelState::occupied || surrounded(occupied, centre)) {
+    return Rejection::inside_occupied_volume;
+  }
+  if (state == VoxelState::shadow) return Rejection::inside_shadow;
+  ReferenceScene shadow;
+  shadow.add(grid.faces(VoxelState::shadow), {}, 0);
+  if (judge.below(nearest_surface(shadow, centre), range.near_m)) {
+    return Rejection::too_close_to_shadow;
+  }
+  return body_bumps(limits, occupied, pose, judge) ? Rejection::too_close_to_occupied
+                                                   : Rejection::none;
+}
+
+}  // namespace
+
+std::optional<Rejection> plain_view_check(const WorldModel& world, const StateGrid& grid,
+                                          const ViewConstraints& limits, const DepthRange& range,
+                                          const Pose& T_world_cam) {
+  Judge judge;
+  const Rejection reason = first_reason(world, grid, limits, range, T_world_cam, judge);
+  if (judge.close_call) return std::nullopt;
+  return reason;
+}
+
+}  // namespace vantage::test
