@@ -65,7 +65,7 @@ TEST_CASE("a plot has a mark for each value, bars, a legend, and no number that 
       error_plot_svg("Title", "cameras", one_panel({{2, 1, 0.5}, {3, 0.5, 0.1}, {4, 0.2, 0}}));
   CHECK(svg.starts_with("<svg xmlns="));
   CHECK(svg.ends_with("</svg>\n"));
-  CHECK(count(svg, "<circle") == 3 + 1);  // the second series' discs, and the legend's
+  CHECK(count(svg, "class=\"mark\"") == 2 * (3 + 1));  // and the legend's
   CHECK(count(svg, ">first</text>") == 1);
   CHECK(count(svg, ">second</text>") == 1);
   CHECK(count(svg, ">mm</text>") == 1);
