@@ -1,10 +1,8 @@
 #include "planning_runs.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
-#include <charconv>
 #include <chrono>
 
 #include "picture_file.hpp"
@@ -14,7 +12,6 @@
 #include "vantage/planner/shadow_scorer.hpp"
 #include "vantage/planner/view_search.hpp"
 #include "vantage/planner/voxel_scorer.hpp"
-#include "vantage/raycore/error.hpp"
 #include "vantage/volume/classify.hpp"
 
 namespace vantage {
@@ -179,50 +176,7 @@ class SceneRun {
   std::optional<PlanningScene> believed_;
 };
 
-const std::vector<std::string> kSets{"full", "production"};
-
-void refuse_twice(const std::string& where, const std::vector<std::string>& names) {
-  for (auto name = names.begin(); name != names.end(); ++name) {
-    if (std::find(names.begin(), name, *name) == name) continue;
-    throw bad_input(where, fmt::format("found {} twice; name it once", *name));
-  }
-}
-
 }  // namespace
-
-NamedMethod named_method(const std::string& name) {
-  constexpr std::string_view kShadow = "shadow", kPower = "shadowD";
-  if (name == kShadow) return {"shadowD6", {.name = "shadow", .depth_power = 6}};
-  if (name.starts_with(kPower)) {
-    double power = 0;
-    const char *const first = name.data() + kPower.size(), *const last = name.data() + name.size();
-    const auto [end, error] = std::from_chars(first, last, power);
-    if (error == std::errc() && end == last && power >= 0 && power <= 16) {
-      return {fmt::format("shadowD{}", power), {.name = "shadow", .depth_power = power}};
-    }
-  } else if (std::ranges::find(method_names(), name) != method_names().end()) {
-    return {name, {.name = name}};
-  }
-  throw bad_input("--methods",
-                  fmt::format("found '{}'; expected one of: {}; shadowD and a number from 0 to 16 "
-                              "is the shadow method with that power of the depth",
-                              name, fmt::join(method_names(), ", ")));
-}
-
-void choose(const std::vector<std::string>& methods, const std::vector<std::string>& sets,
-            PlanningSettings& settings) {
-  std::vector<std::string> names;
-  for (const std::string& method : methods) names.push_back(named_method(method).name);
-  refuse_twice("--methods", names);
-  refuse_twice("--candidates", sets);
-  settings.methods = {named_method("voxel")};
-  for (const std::string& name : names) {
-    if (name != "voxel") settings.methods.push_back(named_method(name));
-  }
-  for (const std::string& set : kSets) {
-    if (std::ranges::find(sets, set) != sets.end()) settings.sets.push_back(set);
-  }
-}
 
 EvaluatedScene evaluate_planning(const PlanningCell& cell, const PlanningSettings& settings,
                                  const StopToken& stop) {
