@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+
 #include "vantage/planner/light_scorer.hpp"
 #include "vantage/planner/shadow_scorer.hpp"
 #include "vantage/planner/voxel_scorer.hpp"
@@ -15,17 +17,27 @@ const std::vector<std::string>& method_names() {
   return names;
 }
 
+void MethodOptions::check() const {
+  const std::vector<std::string>& names = method_names();
+  if (std::find(names.begin(), names.end(), name) == names.end()) {
+    throw bad_input("method", fmt::format("\"{}\" is unknown; expected one of {}", name,
+                                          fmt::join(names, ", ")));
+  }
+  if (depth_power >= 0 && depth_power <= 16) return;  // false for NaN
+  throw bad_input("method",
+                  fmt::format("a depth power of {}; expected a number from 0 to 16", depth_power));
+}
+
 std::unique_ptr<const ViewScorer> make_view_scorer(const MethodOptions& options,
                                                    const PlanningScene& scene,
                                                    const WorldModel& world,
                                                    const DepthRange& range) {
-  if (options.name == "voxel") return std::make_unique<VoxelScorer>(scene);
+  options.check();
   if (options.name == "shadow") {
     return std::make_unique<ShadowScorer>(scene, range, options.depth_power);
   }
   if (options.name == "light") return std::make_unique<LightScorer>(scene, world);
-  throw bad_input("method", fmt::format("\"{}\" is unknown; expected one of {}", options.name,
-                                        fmt::join(method_names(), ", ")));
+  return std::make_unique<VoxelScorer>(scene);
 }
 
 }  // namespace vantage

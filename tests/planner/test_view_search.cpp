@@ -62,7 +62,7 @@ SearchSetting setting(std::uint64_t seed, Score most, Score slack, int servo_ite
                   {}};
   if (servo_iterations > 0) {
     s.servo = std::make_shared<const ServoRefiner>(std::make_shared<const FakeView>(), s.checker,
-                                                   kCamera, scene.shadow_centre(),
+                                                   kCamera, scene.middle_of_shadow(),
                                                    ServoOptions{servo_iterations, 64});
   }
   return s;
