@@ -37,9 +37,8 @@ PlanRequest request_of(const Workcell& workcell, const PlanOptions& options,
   PlanRequest request{.work_area = workcell.work_area,
                       .intrinsics = workcell.movable_intrinsics.value_or(first_camera),
                       .range = workcell.movable_range};
-  request.radii_m = options.radii_m.empty() ? workcell.candidate_radii_m : options.radii_m;
-  request.candidates_per_half_sphere = options.count.value_or(workcell.candidates_per_half_sphere);
-  request.reach = workcell.reach;
+  request.candidates = workcell.candidates;
+  request.constraints = workcell.constraints;
   request.volume = volume_of(workcell, options);
   if (workcell.voxel_size_m) request.voxel_size_m = *workcell.voxel_size_m;
   if (options.voxel_size_m) request.voxel_size_m = *options.voxel_size_m;
@@ -51,6 +50,7 @@ PlanRequest request_of(const Workcell& workcell, const PlanOptions& options,
 PlanInput load_plan_input(const PlanOptions& options, const StopToken& stop) {
   const auto start = std::chrono::steady_clock::now();
   Workcell workcell = workcell_of(options);
+  options.candidates.apply(workcell);
   if (!options.depth_range.empty()) {
     const DepthRange range{options.depth_range[0], options.depth_range[1]};
     range.check("--depth-range");

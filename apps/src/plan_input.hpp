@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "candidate_options.hpp"
 #include "plan_json.hpp"
 #include "plan_world.hpp"
 #include "vantage/planner/plan.hpp"
@@ -20,8 +21,7 @@ struct PlanOptions {
   std::vector<int> images;         ///< empty: all of the dataset
   ObjectSource objects = {};
   std::vector<double> depth_range;  ///< near, far of all cameras; empty: from the workcell
-  std::vector<double> radii_m;
-  std::optional<int> count;
+  CandidateOptions candidates = {};
   std::optional<double> voxel_size_m;
   std::string occluders;                 ///< mesh or voxels; empty: from the workcell
   std::string anti_alias;                ///< on or off; empty: from the workcell

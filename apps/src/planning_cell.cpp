@@ -90,7 +90,7 @@ PlanRequest request_of(const Workcell& workcell) {
       .work_area = workcell.work_area,
       .intrinsics = workcell.movable_intrinsics.value_or(workcell.sensor_intrinsics),
       .range = workcell.movable_range};
-  request.constraints.reach = workcell.reach;
+  request.constraints = workcell.constraints;
   request.volume = workcell.volume;
   if (workcell.voxel_size_m) request.voxel_size_m = *workcell.voxel_size_m;
   return request;

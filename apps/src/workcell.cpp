@@ -10,22 +10,15 @@
 #include "documents/schemas.hpp"
 #include "documents/value_readers.hpp"
 #include "documents/yaml_document.hpp"
+#include "view_list.hpp"
 #include "volume_settings.hpp"
+#include "workcell_views.hpp"
 
 namespace vantage {
 namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
-
-Reach read_reach(const Value& value) {
-  const Reach reach{value["base_m"].vector(), value.get("min_m", 0.0), value["max_m"].as<double>()};
-  if (reach.min_m >= reach.max_m) {
-    throw value.error(fmt::format("found min_m: {} and max_m: {}; expected min_m < max_m",
-                                  reach.min_m, reach.max_m));
-  }
-  return reach;
-}
 
 /// A file, or a list of files, that a value names.
 std::vector<fs::path> named_files(const Value& value, const fs::path& folder,
@@ -49,23 +42,6 @@ void read_movable_camera(const Value& value, Workcell& workcell) {
   if (value.has("depth_range_m")) workcell.movable_range = read_range(value["depth_range_m"]);
 }
 
-void read_candidates(const Value& value, Workcell& workcell) {
-  if (value.has("radii_m")) {
-    workcell.candidate_radii_m = value["radii_m"].as<std::vector<double>>();
-  }
-  if (value.has("count")) workcell.candidates_per_half_sphere = value["count"].as<int>();
-}
-
-/// Where a camera of the simulated cell is: its pose, or the point that it looks at.
-Pose read_camera_pose(const Value& value) {
-  if (value.has("pose")) return read_pose(value["pose"]);
-  try {
-    return Pose::looking_at(value["eye_m"].vector(), value["target_m"].vector());
-  } catch (const Error& error) {
-    throw value["target_m"].error(error.message());
-  }
-}
-
 std::vector<CellCamera> read_cameras(const Value& value, const Workcell& workcell) {
   std::vector<CellCamera> cameras;
   std::map<std::string, std::string> places;  // name → where it stands
@@ -78,8 +54,8 @@ std::vector<CellCamera> read_cameras(const Value& value, const Workcell& workcel
     }
     const Intrinsics intrinsics = element.has("intrinsics") ? read_intrinsics(element["intrinsics"])
                                                             : workcell.sensor_intrinsics;
-    cameras.push_back(
-        {name, PinholeCamera(intrinsics, read_camera_pose(element), workcell.sensor_range)});
+    const Pose pose = element.has("pose") ? read_pose(element["pose"]) : read_looking_at(element);
+    cameras.push_back({name, PinholeCamera(intrinsics, pose, workcell.sensor_range)});
   }
   return cameras;
 }
@@ -106,8 +82,10 @@ VolumeOptions read_volume(const Value& value) {
 void read_settings(const Value& root, const fs::path& folder, Workcell& workcell) {
   if (root.has("sensor")) read_sensor(root["sensor"], folder, workcell);
   if (root.has("movable_camera")) read_movable_camera(root["movable_camera"], workcell);
-  if (root.has("candidates")) read_candidates(root["candidates"], workcell);
-  if (root.has("reach")) workcell.reach = read_reach(root["reach"]);
+  if (root.has("candidates")) {
+    workcell.candidates = read_candidates(root["candidates"], folder, workcell.files);
+  }
+  workcell.constraints = read_constraints(root, folder, workcell.files);
   if (root.has("voxel_size_m")) workcell.voxel_size_m = root["voxel_size_m"].as<double>();
   if (root.has("volume")) workcell.volume = read_volume(root["volume"]);
   if (root.has("cameras")) workcell.cameras = read_cameras(root["cameras"], workcell);

@@ -9,6 +9,7 @@
 #include "board.hpp"
 #include "random_objects.hpp"
 #include "vantage/planner/view_candidates.hpp"
+#include "vantage/planner/view_constraints.hpp"
 #include "vantage/raycore/box.hpp"
 #include "vantage/raycore/camera.hpp"
 #include "vantage/reconstruction/knowledge_base.hpp"
@@ -34,9 +35,8 @@ struct Workcell {
   std::vector<std::filesystem::path> calibrations = {};  ///< of the dataset's: one, or one for each
   std::optional<Intrinsics> movable_intrinsics = {};     ///< none: like the dataset's first camera
   DepthRange movable_range = {};
-  std::vector<double> candidate_radii_m = {};  ///< empty: from the work area's size
-  int candidates_per_half_sphere = 20;
-  std::optional<Reach> reach = {};
+  CandidateSet candidates = production_views();
+  ViewConstraints constraints = {};  ///< of the movable camera
   std::shared_ptr<const KnowledgeBase> knowledge =
       std::make_shared<const MemoryKnowledgeBase>();  ///< never null; without types if there is
                                                       ///< none
@@ -53,11 +53,12 @@ struct Workcell {
 };
 
 /// Reads a workcell and the files that it names, relative to its folder: meshes, the knowledge
-/// base, the board.
+/// base, the board, views, a reach map.
 /// @throws Error bad_input with file, line and key for anything that is not as the schema has it, a
 /// box without volume, a quaternion that is none, ranges the wrong way round, a name used twice, a
 /// type that the knowledge base does not have, a marker of the board that a type has too, and a
-/// file that is not there; with the mesh file for one that is damaged; as `FileKnowledgeBase` does.
+/// file that is not there; with the mesh file for one that is damaged; as `FileKnowledgeBase`,
+/// `read_candidates` and `read_constraints` do.
 Workcell load_workcell(const std::filesystem::path& path);
 
 }  // namespace vantage

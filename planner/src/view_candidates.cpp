@@ -53,23 +53,6 @@ void check_view_count(double positions, std::int64_t per_position) {
                 per_position, kMostViews);
 }
 
-/// With its radii, and one count for each of them.
-HalfSpheres written_out(HalfSpheres set, const Box& work_area) {
-  for (const int count : set.counts) check_direction_count(count, "a half-sphere");
-  if (set.counts.empty()) throw refusal("no count of positions; expected one, or one per radius");
-  if (set.radii_m.empty()) {
-    const std::size_t spheres = set.counts.size() == 1 ? 2 : set.counts.size();
-    set.radii_m = default_radii_m(work_area, int(spheres));
-  }
-  if (set.counts.size() == 1) set.counts.resize(set.radii_m.size(), set.counts.front());
-  if (set.counts.size() != set.radii_m.size()) {
-    throw refusal("{} counts of positions for {} half-spheres; expected one, or one for each",
-                  set.counts.size(), set.radii_m.size());
-  }
-  for (const double radius : set.radii_m) check_length(radius, "a half-sphere with a radius");
-  return set;
-}
-
 std::vector<ViewCandidate> views_of(const HalfSpheres& given, const Box& work_area) {
   check_fan(given.fan);
   const HalfSpheres set = written_out(given, work_area);
@@ -142,6 +125,22 @@ HalfSpheres production_views() {
 
 HalfSpheres full_views() {
   return {.counts = {456, 456, 457}, .fan = {.rings = 2}};
+}
+
+HalfSpheres written_out(HalfSpheres set, const Box& work_area) {
+  for (const int count : set.counts) check_direction_count(count, "a half-sphere");
+  if (set.counts.empty()) throw refusal("no count of positions; expected one, or one per radius");
+  if (set.radii_m.empty()) {
+    const std::size_t spheres = set.counts.size() == 1 ? 2 : set.counts.size();
+    set.radii_m = default_radii_m(work_area, int(spheres));
+  }
+  if (set.counts.size() == 1) set.counts.resize(set.radii_m.size(), set.counts.front());
+  if (set.counts.size() != set.radii_m.size()) {
+    throw refusal("{} counts of positions for {} half-spheres; expected one, or one for each",
+                  set.counts.size(), set.radii_m.size());
+  }
+  for (const double radius : set.radii_m) check_length(radius, "a half-sphere with a radius");
+  return set;
 }
 
 std::vector<ViewCandidate> view_candidates(const CandidateSet& set, const Box& work_area) {

@@ -18,6 +18,7 @@ class Value {
   bool has(const char* key) const { return json_->contains(key); }
   bool is_null() const { return json_->is_null(); }
   bool is_string() const { return json_->is_string(); }
+  bool is_array() const { return json_->is_array(); }
   Value operator[](const char* key) const {
     return {*document_, json_->at(key), child(pointer_, key)};
   }

@@ -12,5 +12,6 @@ const nlohmann::json& world_schema();
 const nlohmann::json& observation_schema();
 const nlohmann::json& evaluation_schema();
 const nlohmann::json& planning_schema();
+const nlohmann::json& views_schema();
 
 }  // namespace vantage

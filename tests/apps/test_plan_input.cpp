@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <string>
 
 #include "reconstruction/scene_folder.hpp"
@@ -44,6 +45,33 @@ TEST_CASE("the planner gets objects of types with their meshes, and nothing of t
   CHECK(input.world.cameras.size() == 1);  // the dataset's
   CHECK(input.world.cameras[0].name == "7");
   CHECK(input.record.inputs[1] == folder / "types.yaml");
+}
+
+TEST_CASE("the planner gets the workcell's candidates and limits, the command line's first") {
+  SceneFolder scene;
+  scene.good_entry().depth().color();
+  TemporaryFolder folder;
+  PlanOptions options;
+  options.dataset = scene.path();
+  options.workcell = folder.write("cell.yaml",
+                                  "work_area: {min_m: [-1, -1, 0], max_m: [1, 1, 0.5]}\n"
+                                  "known_objects: []\n"
+                                  "candidates: {radii_m: [0.5], count: 9}\n"
+                                  "reach: {base_m: [0, 0, 0], max_m: 2}\n"
+                                  "clearance_m: 0.05\n");
+  options.objects.objects = "given";
+  const PlanRequest request = load_plan_input(options).request;
+  CHECK(std::get<HalfSpheres>(request.candidates).counts == std::vector{9});
+  CHECK(request.constraints.reach->max_m == 2);
+  CHECK(request.constraints.clearance_m == 0.05);
+
+  const auto views = folder.write("v.yaml", "views: [{eye_m: [1, 0, 1], target_m: [0, 0, 0]}]\n");
+  options.candidates.set = views.string();
+  options.candidates.clearance_m = 0.01;
+  const PlanInput changed = load_plan_input(options);
+  CHECK(std::get<ViewList>(changed.request.candidates).poses.size() == 1);
+  CHECK(changed.request.constraints.clearance_m == 0.01);
+  CHECK(std::ranges::count(changed.record.inputs, views) == 1);
 }
 
 }  // namespace vantage::test

@@ -46,11 +46,16 @@ TEST_CASE("the example's values arrive") {
   const Workcell cell = load_workcell(kShipped / "example.yaml");
   CHECK(cell.work_area.max() == Eigen::Vector3d(0.3, 0.3, 0.4));
   CHECK(cell.movable_intrinsics == Intrinsics{640, 480, 525, 525, 319.5, 239.5});
-  CHECK(cell.candidate_radii_m == std::vector{0.7, 0.9});
-  REQUIRE(cell.reach);
-  CHECK(cell.reach->base_m == Eigen::Vector3d(0, -0.6, 0));
-  CHECK(cell.reach->min_m == 0.3);
-  CHECK(cell.reach->max_m == 1.8);
+  REQUIRE(std::holds_alternative<HalfSpheres>(cell.candidates));
+  CHECK(std::get<HalfSpheres>(cell.candidates).radii_m == std::vector{0.7, 0.9});
+  REQUIRE(cell.constraints.reach);
+  CHECK(cell.constraints.reach->base_m == Eigen::Vector3d(0, -0.6, 0));
+  CHECK(cell.constraints.reach->min_m == 0.3);
+  CHECK(cell.constraints.reach->max_m == 1.8);
+  CHECK(cell.constraints.reach_box);
+  CHECK(cell.constraints.view_cone);
+  CHECK(cell.constraints.clearance_m == 0.02);
+  CHECK(std::holds_alternative<BoxBody>(cell.constraints.body));
   REQUIRE(cell.static_structures.size() == 3);
   CHECK(cell.static_structures[1].name == "post");
   REQUIRE(cell.known_objects.size() == 1);
@@ -75,9 +80,15 @@ TEST_CASE("a work area is enough for a workcell") {
   CHECK(cell.sensor_range == DepthRange{});
   CHECK(!cell.movable_intrinsics);
   CHECK(cell.movable_range == DepthRange{});
-  CHECK(cell.candidate_radii_m.empty());
-  CHECK(cell.candidates_per_half_sphere == 20);
-  CHECK(!cell.reach);
+  REQUIRE(std::holds_alternative<HalfSpheres>(cell.candidates));
+  CHECK(std::get<HalfSpheres>(cell.candidates).radii_m.empty());
+  CHECK(std::get<HalfSpheres>(cell.candidates).counts == std::vector{20});
+  CHECK(!cell.constraints.reach);
+  CHECK(!cell.constraints.reach_box);
+  CHECK(cell.constraints.reach_map == nullptr);
+  CHECK(!cell.constraints.view_cone);
+  CHECK(cell.constraints.clearance_m == 0);
+  CHECK(std::holds_alternative<std::monostate>(cell.constraints.body));
   CHECK(!cell.voxel_size_m);
   CHECK(cell.sensor_intrinsics == Intrinsics{640, 480, 615, 615, 319.5, 239.5});
   CHECK(cell.foreign_objects.empty());
@@ -100,9 +111,9 @@ TEST_CASE("a workcell's ranges, candidates and reach are read") {
   CHECK(cell.sensor_range == DepthRange{0.4, 4});
   CHECK(cell.movable_intrinsics == Intrinsics{320, 240, 300, 301, 160, 120});
   CHECK(cell.movable_range == DepthRange{0.2, 2});
-  CHECK(cell.candidates_per_half_sphere == 7);
-  CHECK(cell.reach->base_m == Eigen::Vector3d(1, 2, 3));
-  CHECK(cell.reach->min_m == 0);
+  CHECK(std::get<HalfSpheres>(cell.candidates).counts == std::vector{7});
+  CHECK(cell.constraints.reach->base_m == Eigen::Vector3d(1, 2, 3));
+  CHECK(cell.constraints.reach->min_m == 0);
 }
 
 TEST_CASE("a workcell's volume settings are read, and what is not there keeps its default") {
@@ -168,7 +179,7 @@ TEST_CASE("a workcell's keys are checked against the schema") {
   expect_text_refused("candidates: {radii_m: [0.5, -1]}\n", "cell.yaml:2: candidates.radii_m[1]",
                       {"found -1", "a number > 0"});
   expect_text_refused("candidates: {count: many}\n", "cell.yaml:2: candidates.count",
-                      {"found \"many\"", "a whole number >= 1 and <= 100000"});
+                      {"found \"many\"", "a whole number or an array >= 1 and <= 1000000"});
   expect_text_refused("sensor: {depth_range_m: [1]}\n", "cell.yaml:2: sensor.depth_range_m",
                       {"found [1]", "2 numbers"});
 }

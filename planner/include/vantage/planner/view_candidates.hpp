@@ -35,6 +35,10 @@ struct HalfSpheres {
 VANTAGE_API HalfSpheres production_views();
 VANTAGE_API HalfSpheres full_views();
 
+/// The same set with its radii, and with one count for each of them.
+/// @throws Error bad_input as `view_candidates` does.
+VANTAGE_API HalfSpheres written_out(HalfSpheres set, const Box& work_area);
+
 /// Positions in a box, world frame: counts.x() × counts.y() × counts.z() of them, from face to face
 /// (in the middle, along an axis with one).
 struct BoxGrid {
@@ -53,14 +57,16 @@ struct AroundPath {
   int count = 6;
 };
 
-/// Poses from somewhere else; ids count up from 0.
+/// Poses from somewhere else, in their order. Those that share a position are scored faster if they
+/// follow each other.
 struct ViewList {
   std::vector<Pose> poses = {};
 };
 
 using CandidateSet = std::variant<HalfSpheres, BoxGrid, AroundPath, ViewList>;
 
-/// The candidates of a set; ids count up from 0, and those that share a position follow each other.
+/// The candidates of a set; ids count up from 0, and those of a fan follow each other. A position
+/// in the work area's very centre looks straight down.
 /// @throws Error bad_input for counts that are not positive or make more than 4,000,000 views,
 /// radii and steps that are not positive and finite, fans of more than 50 rings or wider than π, a
 /// list or path without poses.
