@@ -63,38 +63,47 @@ std::vector<std::uint32_t> spread_order(std::size_t count) {
 }
 
 BoxLanes block_boxes(PointsView points) {
-  BoxLanes boxes;
-  for (std::size_t first = 0; first < points.size; first += kPointsPerBlock) {
+  BoxLanes boxes((points.size + kPointsPerBlock - 1) / kPointsPerBlock);
+  for (std::size_t i = 0; i < boxes.size; ++i) {
+    const std::size_t first = i * kPointsPerBlock;
     const std::size_t count = std::min(kPointsPerBlock, points.size - first);
     const Corners box = corners(points.part(first, count));
-    boxes.push_back(box.min, box.max);
+    boxes.set(i, box.min, box.max);
   }
   return boxes;
 }
 
 BoxLanes parent_boxes(const BoxLanes& below) {
-  BoxLanes boxes;
-  for (std::size_t first = 0; first < below.size(); first += kBlocksPerParent) {
+  BoxLanes boxes((below.size + kBlocksPerParent - 1) / kBlocksPerParent);
+  for (std::size_t parent = 0; parent < boxes.size; ++parent) {
     Corners box{Eigen::Vector3d::Constant(1e300), Eigen::Vector3d::Constant(-1e300)};
-    for (std::size_t i = first; i < std::min(first + kBlocksPerParent, below.size()); ++i) {
+    const std::size_t first = parent * kBlocksPerParent;
+    for (std::size_t i = first; i < std::min(first + kBlocksPerParent, below.size); ++i) {
       const Eigen::Vector3d centre(below.centre_x[i], below.centre_y[i], below.centre_z[i]);
       const Eigen::Vector3d half(below.half_x[i], below.half_y[i], below.half_z[i]);
       box.min = box.min.cwiseMin(centre - half), box.max = box.max.cwiseMax(centre + half);
     }
-    boxes.push_back(box.min, box.max);
+    boxes.set(parent, box.min, box.max);
   }
   return boxes;
 }
 
 }  // namespace
 
-void BoxLanes::push_back(const Eigen::Vector3d& min, const Eigen::Vector3d& max) {
-  const Eigen::Vector3d centre = 0.5 * (min + max), half = 0.5 * (max - min);
-  centre_x.push_back(centre.x()), centre_y.push_back(centre.y()), centre_z.push_back(centre.z());
-  half_x.push_back(half.x()), half_y.push_back(half.y()), half_z.push_back(half.z());
+BoxLanes::BoxLanes(std::size_t count) : size(count) {
+  const std::size_t filled = (count + kBlocksPerParent - 1) / kBlocksPerParent * kBlocksPerParent;
+  for (auto* lanes : {&centre_x, &centre_y, &centre_z, &half_x, &half_y, &half_z}) {
+    lanes->resize(filled);
+  }
 }
 
-PointPackets::PointPackets(const Points& given) : size(given.size()), levels(1) {
+void BoxLanes::set(std::size_t i, const Eigen::Vector3d& min, const Eigen::Vector3d& max) {
+  const Eigen::Vector3d centre = 0.5 * (min + max), half = 0.5 * (max - min);
+  centre_x[i] = centre.x(), centre_y[i] = centre.y(), centre_z[i] = centre.z();
+  half_x[i] = half.x(), half_y[i] = half.y(), half_z[i] = half.z();
+}
+
+PointPackets::PointPackets(const Points& given) : size(given.size()) {
   if (size == 0) return;
   original = curve_order(given);
   const std::size_t packet_count = (size + kPacketWidth - 1) / kPacketWidth;
@@ -103,8 +112,8 @@ PointPackets::PointPackets(const Points& given) : size(given.size()), levels(1) 
     points.set(i, given[original[std::min(i, size - 1)]]);
   }
   spread = spread_order(packet_count);
-  levels[0] = block_boxes(points);
-  while (levels.back().size() > 1) levels.push_back(parent_boxes(levels.back()));
+  levels.push_back(block_boxes(points));
+  while (levels.back().size > 1) levels.push_back(parent_boxes(levels.back()));
   const Corners box = corners(points);
   largest_coordinate = std::max(box.min.cwiseAbs().maxCoeff(), box.max.cwiseAbs().maxCoeff());
 }

@@ -14,12 +14,14 @@ inline constexpr std::size_t kPacketsPerBlock = 4;
 inline constexpr std::size_t kPointsPerBlock = kPacketsPerBlock * kPacketWidth;
 inline constexpr std::size_t kBlocksPerParent = 8;
 
-/// Bounding boxes, one array per number, so that one view is tested against many at once. Metres.
+/// Bounding boxes, one array per number, so that eight are tested at once: filled up to a multiple
+/// of that with boxes of no size. Metres.
 struct BoxLanes {
+  std::size_t size = 0;
   std::vector<double> centre_x, centre_y, centre_z, half_x, half_y, half_z;
 
-  void push_back(const Eigen::Vector3d& min, const Eigen::Vector3d& max);
-  std::size_t size() const noexcept { return centre_x.size(); }
+  explicit BoxLanes(std::size_t count);
+  void set(std::size_t i, const Eigen::Vector3d& min, const Eigen::Vector3d& max);
 };
 
 /// A set of points for packets of rays: in an order in which neighbours in the list are neighbours
@@ -39,7 +41,7 @@ struct PointPackets {
   explicit PointPackets(const Points& given);
 
   std::size_t packets() const noexcept { return spread.size(); }
-  std::size_t blocks() const noexcept { return levels.front().size(); }
+  std::size_t blocks() const noexcept { return levels.front().size; }
 
   /// Bit l is set unless point l of the packet is a copy.
   std::uint16_t lanes(std::size_t packet) const {

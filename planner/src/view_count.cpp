@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cstring>
 
 #include "vantage/raycore/multiversion.hpp"
 
@@ -13,15 +14,25 @@ constexpr std::size_t kMostPackets = 256;
 // Fewer are not worth the look at the bounds in between.
 constexpr std::size_t kFewestPackets = 4;
 
-/// How many of the possible points turned out to be not visible.
+/// Points that are in view and not hidden, of four packets at a time.
 VANTAGE_MULTIVERSION
-std::uint64_t count_lost(const std::uint16_t* possible, const std::uint16_t* in_view,
-                         const std::uint16_t* hidden, std::size_t size) {
-  std::uint64_t lost = 0;
-  for (std::size_t i = 0; i < size; ++i) {
-    lost += std::uint64_t(std::popcount(std::uint16_t(possible[i] & (~in_view[i] | hidden[i]))));
+std::uint64_t count_seen(const std::uint16_t* in_view, const std::uint16_t* hidden,
+                         std::size_t size) {
+  std::uint64_t seen = 0;
+  std::size_t i = 0;
+  for (; i + 4 <= size; i += 4) {
+    std::uint64_t view_bits, hidden_bits;
+    std::memcpy(&view_bits, in_view + i, sizeof(view_bits));
+    std::memcpy(&hidden_bits, hidden + i, sizeof(hidden_bits));
+    seen += std::uint64_t(std::popcount(view_bits & ~hidden_bits));
   }
-  return lost;
+  for (; i < size; ++i) seen += std::uint64_t(std::popcount(unsigned(in_view[i] & ~hidden[i])));
+  return seen;
+}
+
+/// Of a packet whose lanes are the lowest ones.
+Score points_in(std::uint16_t lanes) {
+  return Score(std::bit_width(lanes));
 }
 
 void fill_blocks(const PointPackets& set, std::size_t level, std::size_t box, InView in_view,
@@ -85,38 +96,43 @@ void ViewCount::look_at(std::span<const std::uint32_t> packets) {
   const std::size_t size = packets.size();
   lanes_.resize(size), hidden_.resize(size), wanted_.assign(size, 0);
   for (std::size_t i = 0; i < size; ++i) lanes_[i] = set_.lanes(packets[i]);
-  possible_.resize(active_.size() * size), in_view_.resize(active_.size() * size);
+  in_view_.resize(active_.size() * size);
   for (std::size_t v = 0; v < active_.size(); ++v) {
     std::uint16_t* const in_view = &in_view_[v * size];
-    find_in_view(active_[v], packets, &possible_[v * size], in_view);
+    active_[v].bound -= find_in_view(active_[v], packets, in_view);
     for (std::size_t i = 0; i < size; ++i) wanted_[i] |= in_view[i];
   }
   occluders_.occluded(set_.points, views_[0].centre().cast<float>(), packets, wanted_, hidden_);
   for (std::size_t v = 0; v < active_.size(); ++v) {
-    active_[v].bound -= count_lost(&possible_[v * size], &in_view_[v * size], hidden_.data(), size);
+    active_[v].bound += count_seen(&in_view_[v * size], hidden_.data(), size);
   }
 }
 
-void ViewCount::find_in_view(const View& view, std::span<const std::uint32_t> packets,
-                             std::uint16_t* possible, std::uint16_t* in_view) {
+/// @returns how many of the packets' points the view's bound had counted so far.
+Score ViewCount::find_in_view(const View& view, std::span<const std::uint32_t> packets,
+                              std::uint16_t* in_view) {
+  Score counted = 0;
   if (view.blocks.empty()) {
-    std::copy(lanes_.begin(), lanes_.end(), possible);
     std::copy(lanes_.begin(), lanes_.end(), in_view);
-    return;
+    for (const std::uint16_t lanes : lanes_) counted += points_in(lanes);
+    return counted;
   }
-  unsure_.clear();
+  unsure_.resize(packets.size()), unsure_at_.resize(packets.size());
+  std::size_t unsure = 0;
   for (std::size_t i = 0; i < packets.size(); ++i) {
     const InView block = view.blocks[packets[i] / kPacketsPerBlock];
-    possible[i] = in_view[i] = block == InView::none ? std::uint16_t(0) : lanes_[i];
-    if (block == InView::some) unsure_.push_back(packets[i]);
+    unsure_[unsure] = packets[i], unsure_at_[unsure] = std::uint32_t(i);
+    unsure += block == InView::some;
+    in_view[i] = block == InView::all ? lanes_[i] : std::uint16_t(0);
+    counted += block == InView::none ? 0 : points_in(lanes_[i]);
   }
-  unsure_masks_.resize(unsure_.size());
-  views_[view.index].in_view(set_.points, unsure_, unsure_masks_);
-  std::size_t next = 0;
-  for (std::size_t i = 0; i < packets.size(); ++i) {
-    const InView block = view.blocks[packets[i] / kPacketsPerBlock];
-    if (block == InView::some) in_view[i] &= unsure_masks_[next++];
+  unsure_masks_.resize(unsure);
+  views_[view.index].in_view(set_.points, std::span(unsure_).first(unsure), unsure_masks_);
+  for (std::size_t j = 0; j < unsure; ++j) {
+    const std::uint32_t i = unsure_at_[j];
+    in_view[i] = lanes_[i] & unsure_masks_[j];
   }
+  return counted;
 }
 
 void ViewCount::drop_hopeless(std::span<ScoreBound> results) {

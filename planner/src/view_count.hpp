@@ -35,8 +35,8 @@ class ViewCount {
   void admit(std::size_t index, ScoreBound& result);
   std::size_t next_batch_size() const;
   void look_at(std::span<const std::uint32_t> packets);
-  void find_in_view(const View& view, std::span<const std::uint32_t> packets,
-                    std::uint16_t* possible, std::uint16_t* in_view);
+  Score find_in_view(const View& view, std::span<const std::uint32_t> packets,
+                     std::uint16_t* in_view);
   void drop_hopeless(std::span<ScoreBound> results);
 
   const PointPackets& set_;
@@ -46,10 +46,11 @@ class ViewCount {
   std::vector<View> active_;
   std::size_t done_ = 0;  ///< packets
 
-  // Of the packets of one batch: points that are no copies, that a view may see by its boxes, that
-  // it has in view (view by view), that any view has in view, and that are hidden.
-  Masks lanes_, possible_, in_view_, wanted_, hidden_;
-  std::vector<std::uint32_t> unsure_;
+  // Of the packets of one batch: points that are no copies, that a view has in view (view by
+  // view), that any view has in view, and that are hidden.
+  Masks lanes_, in_view_, wanted_, hidden_;
+  // Packets whose boxes do not say whether they are in view.
+  std::vector<std::uint32_t> unsure_, unsure_at_;
   Masks unsure_masks_;
 };
 

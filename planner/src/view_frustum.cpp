@@ -13,19 +13,22 @@ struct Lanes {
   const double *x, *y, *z, *half_x, *half_y, *half_z;
 };
 
+/// For each of eight boxes, how far its deepest corner and its least deep one are inside, at the
+/// plane where that is least.
 VANTAGE_MULTIVERSION
-void test_boxes(const std::array<ViewPlane, 6>& planes, const Lanes& boxes, std::size_t count,
-                InView* result) {
-  for (std::size_t i = 0; i < count; ++i) {
-    bool outside = false, inside = true;
-    for (const ViewPlane& p : planes) {
+void depths_inside(const std::array<ViewPlane, 6>& planes, const Lanes& boxes,
+                   double* __restrict deepest, double* __restrict least) {
+  for (std::size_t i = 0; i < kBlocksPerParent; ++i) deepest[i] = least[i] = 1e300;
+  for (const ViewPlane& p : planes) {
+    const double ax = std::fabs(p.x), ay = std::fabs(p.y), az = std::fabs(p.z);
+    for (std::size_t i = 0; i < kBlocksPerParent; ++i) {
       const double middle = p.x * boxes.x[i] + p.y * boxes.y[i] + p.z * boxes.z[i] + p.offset;
-      const double reach = std::fabs(p.x) * boxes.half_x[i] + std::fabs(p.y) * boxes.half_y[i] +
-                           std::fabs(p.z) * boxes.half_z[i] + p.margin;
-      outside |= middle + reach < 0;
-      inside &= middle - reach > 0;
+      const double reach =
+          ax * boxes.half_x[i] + ay * boxes.half_y[i] + az * boxes.half_z[i] + p.margin;
+      const double high = middle + reach, low = middle - reach;
+      deepest[i] = high < deepest[i] ? high : deepest[i];
+      least[i] = low < least[i] ? low : least[i];
     }
-    result[i] = outside ? InView::none : inside ? InView::all : InView::some;
   }
 }
 
@@ -49,11 +52,17 @@ ViewFrustum::ViewFrustum(const PinholeCamera& view, double largest_coordinate) {
              plane(-k.fy * y - (k.cy + 0.5 - k.height) * z, 0)};
 }
 
-void ViewFrustum::test(const BoxLanes& boxes, std::size_t first, std::size_t count,
-                       InView* result) const {
+std::array<InView, kBlocksPerParent> ViewFrustum::test(const BoxLanes& boxes,
+                                                       std::size_t first) const {
   const Lanes lanes{&boxes.centre_x[first], &boxes.centre_y[first], &boxes.centre_z[first],
                     &boxes.half_x[first],   &boxes.half_y[first],   &boxes.half_z[first]};
-  test_boxes(planes_, lanes, count, result);
+  std::array<double, kBlocksPerParent> deepest, least;
+  depths_inside(planes_, lanes, deepest.data(), least.data());
+  std::array<InView, kBlocksPerParent> result;
+  for (std::size_t i = 0; i < kBlocksPerParent; ++i) {
+    result[i] = deepest[i] < 0 ? InView::none : least[i] > 0 ? InView::all : InView::some;
+  }
+  return result;
 }
 
 }  // namespace vantage::detail

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -25,7 +26,8 @@ class ViewFrustum {
   /// @param largest_coordinate of the points that the boxes are around.
   ViewFrustum(const PinholeCamera& view, double largest_coordinate);
 
-  void test(const BoxLanes& boxes, std::size_t first, std::size_t count, InView* result) const;
+  /// Eight boxes from `first` on.
+  std::array<InView, kBlocksPerParent> test(const BoxLanes& boxes, std::size_t first) const;
 
  private:
   std::array<ViewPlane, 6> planes_;
@@ -36,9 +38,8 @@ class ViewFrustum {
 template <class Visit>
 void for_each_in_view(const PointPackets& set, const ViewFrustum& frustum, const Visit& visit) {
   const auto descend = [&](const auto& self, std::size_t level, std::size_t first) -> void {
-    std::array<InView, kBlocksPerParent> in_view;
-    const std::size_t count = std::min(kBlocksPerParent, set.levels[level].size() - first);
-    frustum.test(set.levels[level], first, count, in_view.data());
+    const auto in_view = frustum.test(set.levels[level], first);
+    const std::size_t count = std::min(kBlocksPerParent, set.levels[level].size - first);
     for (std::size_t i = 0; i < count; ++i) {
       if (in_view[i] == InView::none) continue;
       if (in_view[i] == InView::all || level == 0) {

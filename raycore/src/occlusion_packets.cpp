@@ -33,6 +33,8 @@ bool trace_packets(const PacketQuery& q, std::uint16_t* hidden) {
   for (std::size_t i = 0; i < q.count; ++i) {
     const PointsView from = q.from.part(q.packets[i] * kPacketWidth, kPacketWidth);
     const int wanted = q.wanted[i];
+    hidden[i] = 0;
+    if (wanted == 0) continue;
     for (int lane = 0; lane < int(kPacketWidth); ++lane) {
       const float ox = from.x[lane], oy = from.y[lane], oz = from.z[lane];
       rays.org_x[lane] = ox, rays.org_y[lane] = oy, rays.org_z[lane] = oz;
