@@ -115,8 +115,12 @@ Score DepthWeight::sum(const Intrinsics& image, ObjectId shadow, std::span<const
              : sum_any_power(counted, power_, tiles.data(), hits.data(), tiles.size());
 }
 
-double DepthWeight::at(double depth_m) const {
-  return std::pow(std::clamp(depth_m / range_.far_m, 0.0, 1.0), power_) * kOne;
+WeightBound DepthWeight::bound(double farthest_m) const {
+  const double part = std::min(farthest_m / range_.far_m, 1.0), whole = std::floor(power_);
+  // (depth / far)^power = (depth / far)^whole · (depth / far)^rest, and no depth is farther.
+  const double rest = std::pow(part, power_ - whole);
+  return {float(1 / range_.far_m), int(whole), float(rest * kOne),
+          float(std::pow(part, power_) * kOne), float(kOne)};
 }
 
 std::uint16_t shadow_pixels(const Intrinsics& image, const DepthRange& range, ObjectId shadow,

@@ -9,6 +9,15 @@
 
 namespace vantage::detail {
 
+/// What a pixel at some depth counts at most: factor · (depth / far)^power.
+struct WeightBound {
+  float per_far;    ///< 1 / far
+  int power;        ///< rounded down: `factor` has the rest
+  float factor;     ///< in steps of a score
+  float uncertain;  ///< what a pixel counts at most of which only `farthest_m` is known
+  float anything;   ///< what any pixel counts at most
+};
+
 /// What a pixel counts that shows shadow at depth D: (D / far)^power as a multiple of 2^-35, so
 /// that sums of them are integers: those of the largest image, 2^28 pixels, fit 64 bits.
 class DepthWeight {
@@ -28,8 +37,8 @@ class DepthWeight {
   Score sum(const Intrinsics& image, ObjectId shadow, std::span<const PixelTile> tiles,
             std::span<const TileHits> hits) const;
 
-  /// (depth / far)^power · 2^35, not rounded; of a depth beyond far, that of far.
-  double at(double depth_m) const;
+  /// Weights are at most this, for shadow that is nowhere farther than `farthest_m`.
+  WeightBound bound(double farthest_m) const;
 
  private:
   double power_;

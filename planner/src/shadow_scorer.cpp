@@ -7,29 +7,47 @@
 #include <bit>
 
 #include "depth_weight.hpp"
+#include "shadow_border.hpp"
+#include "shadow_in_view.hpp"
+#include "shadow_rectangles.hpp"
 #include "vantage/raycore/error.hpp"
+#include "view_cover.hpp"
 
 namespace vantage {
 namespace {
 
-// Some microseconds of rays: their hits stay in the first cache, and `stop` is seen soon enough.
-constexpr std::size_t kBatchTiles = 128;
+using detail::ShadowInView;
+using detail::ViewCover;
 
-std::vector<PixelTile> all_tiles(const Intrinsics& image) {
-  constexpr int kSide = PixelTile::kSide;
-  std::vector<PixelTile> tiles;
-  for (int row = 0; kSide * row < image.height; ++row) {
-    for (int column = 0; kSide * column < image.width; ++column) {
-      tiles.push_back({std::uint16_t(column), std::uint16_t(row)});
-    }
+// Blocks between two looks at `stop`: four thousand rays at most.
+constexpr std::size_t kBlocksPerLook = 8;
+
+/// A block of the image that may show shadow.
+struct BoundedBlock {
+  std::size_t block;
+  Score bound;
+};
+
+std::vector<BoundedBlock> bounded_blocks(const ViewCover& cover) {
+  std::vector<BoundedBlock> blocks;
+  blocks.reserve(cover.block_count());
+  for (std::size_t i = 0; i < cover.block_count(); ++i) {
+    if (const Score bound = cover.bound(i); bound > 0) blocks.push_back({i, bound});
   }
-  return tiles;
+  return blocks;
+}
+
+Score sum_of(const std::vector<BoundedBlock>& blocks) {
+  Score sum = 0;
+  for (const BoundedBlock& block : blocks) sum += block.bound;
+  return sum;
 }
 
 }  // namespace
 
 struct ShadowScorer::Impl {
   PlanningScene scene;
+  detail::ShadowRectangles rectangles;
   detail::DepthWeight weight;
 
   /// @throws Error bad_input for a view with another depth range: its weights would be others.
@@ -42,34 +60,46 @@ struct ShadowScorer::Impl {
                                 weight.range().far_m));
   }
 
-  /// Calls `use(tiles, hits)` for batches of the tiles until it returns false.
-  template <class Use>
-  void trace(const PinholeCamera& view, std::span<const PixelTile> tiles, const Use& use) const {
-    std::array<TileHits, kBatchTiles> hits;
-    while (!tiles.empty()) {
-      const auto batch = tiles.first(std::min(tiles.size(), kBatchTiles));
-      const std::span batch_hits(hits.data(), batch.size());
-      scene.surfaces().first_hits(view, batch, batch_hits);
-      if (!use(batch, std::span<const TileHits>(batch_hits))) return;
-      tiles = tiles.subspan(batch.size());
-    }
+  /// What the view may show of the shadow; nothing if it certainly shows none.
+  std::optional<ViewCover> bounded_cover(const PinholeCamera& view) const {
+    const ShadowInView shadow(view, rectangles, scene.grid());
+    if (shadow.faces.empty()) return std::nullopt;
+    const detail::WeightBound bound = weight.bound(shadow.farthest_m);
+    ViewCover cover(shadow.columns, shadow.rows);
+    for (const detail::FacePolygon& face : shadow.faces) cover.draw(face, bound);
+    return cover;
   }
 
-  ScoreBound score(const PinholeCamera& view, Score, const StopToken& stop) const {
-    const std::vector<PixelTile> tiles = all_tiles(view.intrinsics());
-    ScoreBound result{ScoreBound::Known::exact, 0};
-    trace(view, tiles, [&](std::span<const PixelTile> batch, std::span<const TileHits> hits) {
-      if (stop.stop_requested()) result = {};
-      if (!result.exact()) return false;
-      result.score += weight.sum(view.intrinsics(), scene.shadow_object(), batch, hits);
-      return true;
-    });
-    return result;
+  ScoreBound score(const PinholeCamera& view, Score needed, const StopToken& stop) const {
+    const std::optional<ViewCover> cover = bounded_cover(view);
+    if (!cover) return {ScoreBound::Known::exact, 0};
+    std::vector<BoundedBlock> blocks = bounded_blocks(*cover);
+    Score at_most = sum_of(blocks);
+    if (at_most < needed) return {ScoreBound::Known::at_most, at_most};
+    // What is large is soon known to be less; with all of them needed anyway, the order is no use.
+    if (needed > 0) {
+      std::sort(blocks.begin(), blocks.end(), [](const BoundedBlock& a, const BoundedBlock& b) {
+        return a.bound != b.bound ? a.bound > b.bound : a.block < b.block;
+      });
+    }
+    std::array<PixelTile, 32> room;
+    std::array<TileHits, 32> hits;
+    for (std::size_t i = 0; i < blocks.size(); ++i) {
+      if (i % kBlocksPerLook == 0 && stop.stop_requested()) return {};
+      const std::span<const PixelTile> tiles = cover->tiles(blocks[i].block, room);
+      const std::span block_hits(hits.data(), tiles.size());
+      scene.surfaces().first_hits(view, tiles, block_hits);
+      at_most -= blocks[i].bound;
+      at_most += weight.sum(view.intrinsics(), scene.shadow_object(), tiles, block_hits);
+      if (at_most < needed) return {ScoreBound::Known::at_most, at_most};
+    }
+    return {ScoreBound::Known::exact, at_most};
   }
 };
 
 ShadowScorer::ShadowScorer(const PlanningScene& scene, const DepthRange& range, double depth_power)
-    : impl_(new Impl{scene, detail::DepthWeight(depth_power, range)}) {}
+    : impl_(new Impl{scene, detail::ShadowRectangles(scene.shadow_faces()),
+                     detail::DepthWeight(depth_power, range)}) {}
 
 ShadowScorer::~ShadowScorer() = default;
 
@@ -79,8 +109,8 @@ double ShadowScorer::unit() const noexcept {
 
 Score ShadowScorer::upper_bound(const PinholeCamera& view) const {
   impl_->check(view);
-  const Intrinsics& image = view.intrinsics();
-  return Score(image.width) * Score(image.height) * Score(detail::DepthWeight::kOne);
+  const std::optional<ViewCover> cover = impl_->bounded_cover(view);
+  return cover ? sum_of(bounded_blocks(*cover)) : 0;
 }
 
 void ShadowScorer::score(std::span<const PinholeCamera> views, std::span<const Score> needed,
@@ -109,19 +139,20 @@ std::vector<ScoreTerm> ShadowScorer::terms(const PinholeCamera& view) const {
   const ObjectId shadow = impl_->scene.shadow_object();
   Score sum = 0, pixels = 0;
   double depths_m = 0;
-  impl_->trace(view, all_tiles(image),
-               [&](std::span<const PixelTile> tiles, std::span<const TileHits> hits) {
-                 sum += impl_->weight.sum(image, shadow, tiles, hits);
-                 for (std::size_t i = 0; i < tiles.size(); ++i) {
-                   unsigned shown =
-                       detail::shadow_pixels(image, view.range(), shadow, tiles[i], hits[i]);
-                   pixels += Score(std::popcount(shown));
-                   for (; shown != 0; shown &= shown - 1) {
-                     depths_m += double(hits[i].t[std::countr_zero(shown)]);
-                   }
-                 }
-                 return true;
-               });
+  std::array<PixelTile, 32> room;
+  std::array<TileHits, 32> hits;
+  const std::optional<ViewCover> cover = impl_->bounded_cover(view);
+  for (std::size_t block = 0; cover && block < cover->block_count(); ++block) {
+    const std::span<const PixelTile> tiles = cover->tiles(block, room);
+    const std::span block_hits(hits.data(), tiles.size());
+    impl_->scene.surfaces().first_hits(view, tiles, block_hits);
+    sum += impl_->weight.sum(image, shadow, tiles, block_hits);
+    for (std::size_t i = 0; i < tiles.size(); ++i) {
+      unsigned shown = detail::shadow_pixels(image, view.range(), shadow, tiles[i], hits[i]);
+      pixels += Score(std::popcount(shown));
+      for (; shown != 0; shown &= shown - 1) depths_m += double(hits[i].t[std::countr_zero(shown)]);
+    }
+  }
   const double image_pixels = double(image.width) * double(image.height);
   return {{"shadow pixels", double(pixels)},
           {"share of the image", double(pixels) / image_pixels},
@@ -130,24 +161,9 @@ std::vector<ScoreTerm> ShadowScorer::terms(const PinholeCamera& view) const {
 }
 
 std::optional<ShadowBounds> ShadowScorer::shadow_bounds(const PinholeCamera& view) const {
-  const Intrinsics& image = view.intrinsics();
-  ShadowBounds bounds{image.width, -1, image.height, -1};
-  impl_->trace(view, all_tiles(image),
-               [&](std::span<const PixelTile> tiles, std::span<const TileHits> hits) {
-                 for (std::size_t i = 0; i < tiles.size(); ++i) {
-                   unsigned shown = detail::shadow_pixels(
-                       image, view.range(), impl_->scene.shadow_object(), tiles[i], hits[i]);
-                   for (; shown != 0; shown &= shown - 1) {
-                     const int lane = std::countr_zero(shown);
-                     const int u = 4 * tiles[i].column + lane % 4, v = 4 * tiles[i].row + lane / 4;
-                     bounds = {std::min(bounds.left, u), std::max(bounds.right, u),
-                               std::min(bounds.top, v), std::max(bounds.bottom, v)};
-                   }
-                 }
-                 return true;
-               });
-  if (bounds.right < 0) return std::nullopt;
-  return bounds;
+  const ShadowInView shadow(view, impl_->rectangles, impl_->scene.grid());
+  if (shadow.faces.empty()) return std::nullopt;
+  return detail::find_shadow_bounds(impl_->scene, view, shadow);
 }
 
 }  // namespace vantage
