@@ -1,0 +1,110 @@
+#include <doctest/doctest.h>
+
+#include <set>
+
+#include "documents/schema_check.hpp"
+#include "documents/schemas.hpp"
+#include "run_command.hpp"
+
+namespace vantage {
+namespace {
+
+using nlohmann::json;
+using test::quoted;
+using test::run_vantage;
+namespace fs = std::filesystem;
+
+std::string scene(const char* cell, const char* rest) {
+  return quoted((test::workcells() / (std::string(cell) + ".yaml")).string() + rest);
+}
+
+const json& of_method(const json& list, const std::string& method) {
+  for (const json& one : list) {
+    if (one["method"] == method) return one;
+  }
+  FAIL("no such method");
+  return list;
+}
+
+}  // namespace
+
+TEST_CASE("evaluate planning: tables, planning.json, charts and a page") {
+  const test::TemporaryFolder folder;
+  const auto result = run_vantage(
+      "evaluate planning" + scene("wall", ":side") + scene("foreign_objects", "+ideal") +
+      " --candidates production --methods shadowD6 --servo 2 --voxel-size 0.02 -o" +
+      quoted(folder / "out"));
+  CAPTURE(result.err);
+  REQUIRE(result.exit_code == 0);
+  for (const char* part :
+       {"wall:side (thesis: Wall, side)", "foreign_objects:front+ideal",
+        "Methods compared: production set, 40 views, servo 2", "thesis: table 9.1"}) {
+    CAPTURE(part);
+    CHECK(result.out.find(part) != std::string::npos);
+  }
+  const json report = json::parse(test::read_text(folder / "out/planning.json"));
+  CHECK_NOTHROW(check_schema({"planning.json", report}, planning_schema()));
+  REQUIRE(report["scenes"].size() == 2);
+  CHECK(report["inputs"].size() >= 3);  // the cells, the types, the board
+  for (const json& one : report["scenes"]) {
+    const json& methods = one["sets"][0]["methods"];
+    CHECK(of_method(methods, "voxel")["pick"]["vox_ratio"] == 1.0);
+    CHECK(of_method(methods, "shadowD6")["pick"]["vox_ratio"].get<double>() > 0.5);
+    CHECK(of_method(methods, "shadowD6")["pick"]["regret_m3"].get<double>() >= 0);
+  }
+  CHECK(test::read_text(folder / "out/planning_production.svg").starts_with("<svg"));
+  const std::string page = test::read_text(folder / "out/planning.html");
+  CHECK(page.starts_with("<!DOCTYPE html>"));
+  CHECK(page.find("data:image/jpeg;base64,/9j/") != std::string::npos);
+  std::set<std::string> files;
+  for (const auto& entry : fs::directory_iterator(folder / "out")) {
+    files.insert(entry.path().filename());
+  }
+  CHECK(files ==
+        std::set<std::string>{"planning.html", "planning.json", "planning_production.svg"});
+}
+
+TEST_CASE("evaluate planning: but for the times, the same bytes at any number of threads") {
+  const std::string command = "evaluate planning" + scene("corridor", ":left,right") +
+                              " --candidates production --servo 1 --voxel-size 0.02 --json";
+  json one = run_vantage(command + " --threads 1").json();
+  json three = run_vantage(command + " --threads 3 --repeat 2").json();
+  CHECK(one["timing"]["threads"] == 1);
+  CHECK(three["timing"]["scenes"][0]["runs"][0]["run_times_s"].size() == 2);
+  one.erase("timing");
+  three.erase("timing");
+  CHECK(one == three);
+}
+
+TEST_CASE("evaluate planning refuses what it cannot evaluate, and writes nothing") {
+  const test::TemporaryFolder folder;
+  const auto refused = [&](const std::string& arguments, int exit_code, const char* reason) {
+    CAPTURE(arguments);
+    const auto result =
+        run_vantage("evaluate planning" + arguments + " -o" + quoted(folder / "out"));
+    CHECK(result.exit_code == exit_code);
+    CAPTURE(result.err);
+    CHECK(result.err.find(reason) != std::string::npos);
+    CHECK_FALSE(fs::exists(folder / "out"));
+  };
+  refused("", 2, "scenes");
+  refused(scene("wall", ":back"), 3, "it has no camera \"back\"");
+  refused(scene("wall", "") + scene("nowhere", ""), 3, "nowhere.yaml");
+  refused(scene("wall", "") + " --methods magic", 3, "found 'magic'");
+  refused(scene("wall", "") + " --candidates some", 2, "some");
+  refused(scene("wall", "") + " --depth deep", 2, "deep");
+  refused(scene("wall", "+deep"), 3, "found \"deep\"");
+  refused(scene("wall", "") + " --servo 101", 2, "--servo");
+}
+
+TEST_CASE("Ctrl-C ends an evaluation of planning with 130, and writes nothing") {
+  const test::TemporaryFolder folder;
+  const auto result = run_vantage(
+      "evaluate planning" + scene("wall", ":side") + " --repeat 1000 -o" + quoted(folder / "out"),
+      "timeout --foreground --preserve-status -s INT 2");
+  CHECK(result.exit_code == 130);
+  CHECK(result.out.empty());
+  CHECK_FALSE(fs::exists(folder / "out"));
+}
+
+}  // namespace vantage
