@@ -27,7 +27,9 @@ WorldModel posts_world() {
 
 PlanRequest k_views(int most) {
   PlanRequest request = test::small_request();
-  request.candidates = HalfSpheres{{0.3, 0.45}, {12}, {}};
+  request.intrinsics.fx = request.intrinsics.fy = 250;  // one view covers some 8 cm
+  request.candidates = HalfSpheres{{0.3, 0.4}, {8}, {1, 0.2}};
+  request.constraints.reach = Reach{{0, 0, 0.1}, 0.28, 0.42};  // and cannot back off
   request.views.most = most;
   return request;
 }
@@ -175,7 +177,7 @@ TEST_CASE("a costly journey keeps the camera near") {
 TEST_CASE("an explanation adds up") {
   const WorldModel world = posts_world();
   PlanRequest request = k_views(1);
-  request.constraints.reach = Reach{{0.1, 0, 0}, 0, 0.5};
+  request.constraints.reach = Reach{{0.1, 0, 0}, 0, 0.4};
   const Plan plan = plan_next_view(world, request);
   std::set<std::string> kinds;
   for (const ScoredCandidate& candidate : plan.candidates) {
@@ -198,8 +200,8 @@ TEST_CASE("an explanation adds up") {
     CHECK(revealed_voxels(world, plan, best.step.T_world_cam) == view.revealed_voxels);
   }
   CHECK(kinds == std::set<std::string>{"lost:", "rejected:", "the"});
-  test::expect_bad_input("explain", "found candidate 24; expected 0 to 23",
-                         [&] { explain_view(world, plan, 24); });
+  test::expect_bad_input("explain", "found candidate 144; expected 0 to 143",
+                         [&] { explain_view(world, plan, 144); });
 }
 
 }  // namespace vantage
