@@ -1,5 +1,7 @@
 #include "plan_shapes.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -59,8 +61,7 @@ std::vector<ColoredMesh> camera_meshes(const Plan& plan, const WorldModel& world
   }
   const std::vector<PinholeCamera> suggested = suggested_cameras(plan);
   for (std::size_t i = 0; i < suggested.size(); ++i) {
-    const std::string number = i == 0 ? "" : " " + std::to_string(i + 1);
-    meshes.push_back({"suggested camera" + number,
+    meshes.push_back({i == 0 ? "suggested camera" : fmt::format("suggested camera {}", i + 1),
                       shape_of(suggested[i], plan, size_among(suggested.size())),
                       kSuggestedCamera});
   }
