@@ -17,6 +17,7 @@ constexpr double kPi = std::numbers::pi;
 constexpr int kMostDirections = 1'000'000;
 constexpr std::int64_t kMostViews = 4'000'000;
 constexpr int kMostRings = 50;
+constexpr double kFarthest_m = 1e6;
 
 template <class... Args>
 Error refusal(fmt::format_string<Args...> text, Args&&... args) {
@@ -44,6 +45,15 @@ void check_fan(const ViewFan& fan) {
         "ring within π of the first direction",
         fan.rings, fan.step_rad);
   }
+}
+
+/// Rays are floats: nothing is further out than a mesh may be.
+void check_position(const ViewCandidate& view) {
+  const Eigen::Vector3d& p = view.T_world_cam.translation();
+  if (p.cwiseAbs().maxCoeff() <= kFarthest_m) return;
+  throw refusal(
+      "view {} is at [{}, {}, {}] m; expected coordinates up to {} m (is the unit right?)", view.id,
+      p.x(), p.y(), p.z(), kFarthest_m);
 }
 
 /// Before anything is made of them.
@@ -144,7 +154,9 @@ HalfSpheres written_out(HalfSpheres set, const Box& work_area) {
 }
 
 std::vector<ViewCandidate> view_candidates(const CandidateSet& set, const Box& work_area) {
-  return std::visit([&](const auto& kind) { return views_of(kind, work_area); }, set);
+  auto views = std::visit([&](const auto& kind) { return views_of(kind, work_area); }, set);
+  for (const ViewCandidate& view : views) check_position(view);
+  return views;
 }
 
 std::vector<Eigen::Vector3d> half_sphere_directions(int count) {

@@ -304,6 +304,8 @@ TEST_CASE("impossible candidates are refused with the value") {
   refuses(BoxGrid{kArea, {20'000, 20'000, 20'000}}, "8000000000000 positions");
   refuses(BoxGrid{kArea, {1, 1, 1}, {1, 4}}, "within π");
   refuses(ViewList{}, "a list without poses");
+  refuses(ViewList{{Pose(), Pose::from_translation({0, 0, 2e6})}}, "view 1 is at [0, 0, 2000000]");
+  refuses(HalfSpheres{{1e300}, {1}}, "view 0 is at");
   const std::vector<Pose> way = {Pose(), Pose::from_translation({0, 0, 1})};
   refuses(AroundPath{}, "no poses");
   refuses(AroundPath{way, 0}, "a step along the path of 0 m");

@@ -69,7 +69,7 @@ using CandidateSet = std::variant<HalfSpheres, BoxGrid, AroundPath, ViewList>;
 /// in the work area's very centre looks straight down.
 /// @throws Error bad_input for counts that are not positive or make more than 4,000,000 views,
 /// radii and steps that are not positive and finite, fans of more than 50 rings or wider than π, a
-/// list or path without poses.
+/// list or path without poses, positions more than 1e6 m from the world's origin.
 VANTAGE_API std::vector<ViewCandidate> view_candidates(const CandidateSet& set,
                                                        const Box& work_area);
 
