@@ -13,7 +13,6 @@ namespace {
 
 constexpr double kAreaPerPoint = 2e-6;
 constexpr double kMostPoints = 1 << 17;
-constexpr double kOffSurface = 1e-4;
 
 using Polygon = std::vector<Eigen::Vector3d>;
 
@@ -85,7 +84,9 @@ SurfaceSamples surface_samples(const WorldModel& world, const Box& inside) {
   SurfaceSamples samples{{}, std::max(kAreaPerPoint, area / kMostPoints)};
   const double farthest =
       std::max(inside.min().cwiseAbs().maxCoeff(), inside.max().cwiseAbs().maxCoeff());
-  const double off = std::max(kOffSurface, 10 * kRoundingOfRays * farthest);
+  // As little as rays can tell: a face seen edge-on from behind would show a strip of its points
+  // that is many times wider than the offset.
+  const double off = kRoundingOfRays * std::max(1.0, farthest);
   // A point wherever the area so far passes the middle of another point's share.
   double so_far = 0;
   std::size_t i = 0;

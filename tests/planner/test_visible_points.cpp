@@ -3,6 +3,8 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
+#include <chrono>
+#include <limits>
 #include <numeric>
 
 #include "reference/plain_views.hpp"
@@ -107,6 +109,129 @@ TEST_CASE("what is needed decides which views are counted to the end") {
   }
   CHECK(exact > test::enough(300));
   CHECK(bounded > test::enough(200));
+}
+
+TEST_CASE("counts and bounds are the same at 1, 2, 3 and 8 threads") {
+  const tbb::global_control allow(tbb::global_control::max_allowed_parallelism, 8);
+  const Case c = Case::of_workcell(3, 0.006);
+  const VisiblePoints points(c.points, c.occluders);
+  test::Random random(5);
+  std::vector<std::vector<PinholeCamera>> places;
+  std::vector<std::vector<Score>> needed;
+  for (std::size_t i = 0; i < 40; ++i) {
+    places.push_back(test::random_shared_views(random, 9));
+    needed.emplace_back(9, i % 2 == 0 ? 0 : c.points.size() / 2);
+  }
+  std::vector<std::vector<ScoreBound>> first;
+  for (const int threads : {1, 2, 3, 8}) {
+    CAPTURE(threads);
+    std::vector<std::vector<ScoreBound>> results(places.size());
+    tbb::task_arena arena(threads);
+    arena.execute([&] {
+      tbb::parallel_for(std::size_t(0), places.size(),
+                        [&](std::size_t i) { results[i] = count(points, places[i], needed[i]); });
+    });
+    if (first.empty()) first = results;
+    CHECK(results == first);
+  }
+}
+
+TEST_CASE("a call that is stopped knows nothing, or the truth") {
+  const Case c = Case::of_workcell(3, 0.003);
+  const VisiblePoints points(c.points, c.occluders);
+  test::Random random(7);
+  const std::vector<PinholeCamera> views = test::random_shared_views(random, 9);
+  const std::vector<Score> all(9, 0);
+  const std::vector<ScoreBound> truth = count(points, views, all);
+
+  const StopToken cancelled;
+  cancelled.cancel();
+  for (const ScoreBound& result : count(points, views, all, cancelled)) {
+    CHECK((result == ScoreBound{} || result == ScoreBound{ScoreBound::Known::exact, 0}));
+  }
+  for (const int us : {20, 100, 500}) {
+    const StopToken stop =
+        StopToken::with_deadline(StopToken::Clock::now() + std::chrono::microseconds(us));
+    const std::vector<ScoreBound> results = count(points, views, all, stop);
+    for (std::size_t i = 0; i < views.size(); ++i) {
+      CHECK((results[i] == ScoreBound{} || results[i] == truth[i]));
+    }
+  }
+}
+
+TEST_CASE("no points, one point, and views of nothing") {
+  SceneBuilder builder;
+  builder.add_box(Box({-0.1, -0.1, 0}, {0.1, 0.1, 0.2}));
+  const std::shared_ptr<const Scene> box = builder.build();
+  const auto view = [](const Eigen::Vector3d& eye, const Eigen::Vector3d& target, double far_m) {
+    return PinholeCamera(test::kSmallImage, Pose::looking_at(eye, target), {0.1, far_m});
+  };
+  const PinholeCamera front = view({1, 0, 0.1}, {0, 0, 0.1}, 3);
+
+  const VisiblePoints none(Points(), box);
+  CHECK(none.size() == 0);
+  CHECK(none.upper_bound(front) == 0);
+  CHECK(none.visible(front).empty());
+  CHECK(count(none, {&front, 1}, {0}).front() == ScoreBound{ScoreBound::Known::exact, 0});
+
+  Points one;
+  one.push_back({0.11f, 0, 0.1f});
+  const VisiblePoints before(one, box);
+  CHECK(before.upper_bound(front) == 1);
+  CHECK(before.visible(front) == std::vector<std::uint8_t>{1});
+  CHECK(count(before, {&front, 1}, {1}).front() == ScoreBound{ScoreBound::Known::exact, 1});
+  const ScoreBound hopeless = count(before, {&front, 1}, {2}).front();
+  CHECK(hopeless == ScoreBound{ScoreBound::Known::at_most, 1});
+  for (const PinholeCamera& blind :
+       {view({1, 0, 0.1}, {2, 0, 0.1}, 3), view({1, 0, 0.1}, {0, 0, 0.1}, 0.5),
+        view({1, 0, 0.1}, {0.9, 0.2, 0.1}, 3)}) {
+    CHECK(before.upper_bound(blind) == 0);
+    CHECK(count(before, {&blind, 1}, {1}).front() == ScoreBound{ScoreBound::Known::exact, 0});
+  }
+
+  Points inside;
+  for (int i = 0; i < 100; ++i) inside.push_back({0.001f * float(i), 0, 0.1f});
+  const VisiblePoints hidden(inside, box);
+  CHECK(hidden.upper_bound(front) == 100);
+  CHECK(count(hidden, {&front, 1}, {0}).front() == ScoreBound{ScoreBound::Known::exact, 0});
+  const ScoreBound enough = count(hidden, {&front, 1}, {50}).front();
+  CHECK(enough.known == ScoreBound::Known::at_most);
+  CHECK(enough.score < 50);
+}
+
+TEST_CASE("counting refuses spans that differ, views that share no centre, points that are none") {
+  const Case c = Case::of_workcell(1, 0.02);
+  const VisiblePoints points(c.points, c.occluders);
+  test::Random random(1);
+  std::vector<PinholeCamera> views = test::random_shared_views(random, 2);
+  test::expect_bad_input("views", "2 views, 1 needed scores", [&] { count(points, views, {0}); });
+  views.push_back(test::random_shared_views(random, 1).front());
+  test::expect_bad_input("views", "view 2 has another centre", [&] {
+    count(points, views, {0, 0, 0});
+  });
+  Points bad = c.points;
+  bad.set(3, {0, std::numeric_limits<float>::quiet_NaN(), 0});
+  test::expect_bad_input("point 3", "nan", [&] { VisiblePoints(bad, c.occluders); });
+}
+
+TEST_CASE("the voxel method's terms add up, and what it reveals is what it scores") {
+  for (std::uint32_t seed = 0; seed < test::scene_count(6); ++seed) {
+    CAPTURE(seed);
+    const WorldModel world = test::random_workcell(seed);
+    const auto grid = classify(world, GridGeometry::covering(test::random_workcell_area(), 0.01));
+    const VoxelScorer scorer(PlanningScene(world, grid, OccluderMode::mesh));
+    test::Random random(seed);
+    const PinholeCamera view = test::random_shared_views(random, 1).front();
+    const std::vector<ScoreTerm> terms = scorer.terms(view);
+    REQUIRE(terms.size() == 5);
+    const Score score = scorer.ViewScorer::score(view).score;
+    const std::vector<std::uint8_t> revealed = scorer.revealed(view);
+    CHECK(std::accumulate(revealed.begin(), revealed.end(), Score(0)) == score);
+    CHECK(terms[0].value + terms[1].value == double(grid->count(VoxelState::shadow)));
+    CHECK(terms[1].value - terms[2].value == double(score));
+    CHECK(terms.back().value == double(score) * scorer.unit());
+    CHECK(terms.back().unit == scorer.unit_name());
+  }
 }
 
 }  // namespace vantage
