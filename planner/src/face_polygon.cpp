@@ -86,7 +86,7 @@ bool FaceProjector::project(const Eigen::Vector3d (&corners)[4], const Eigen::Ve
   polygon.certain_rows = whole(v0 + margin, v1 - margin, image_.height);
   polygon.nearest_m = z0;
   set_edges({on_image.data(), std::size_t(count)}, margin, polygon);
-  set_depth(normal, distance_m, polygon);
+  set_depth(normal, distance_m, std::min(z1, range_.far_m), polygon);
   return true;
 }
 
@@ -119,7 +119,7 @@ void FaceProjector::set_edges(std::span<const ImageCorner> corners, double margi
   }
 }
 
-void FaceProjector::set_depth(const Eigen::Vector3d& normal, double distance_m,
+void FaceProjector::set_depth(const Eigen::Vector3d& normal, double distance_m, double farthest_m,
                               FacePolygon& polygon) const {
   // A point at depth z in the direction (x, y, 1) is on the plane: z · normal · (x, y, 1) =
   // distance.
@@ -135,6 +135,7 @@ void FaceProjector::set_depth(const Eigen::Vector3d& normal, double distance_m,
   const double float_error =
       kFloat * (std::abs(a) + std::abs(b) * image_.width + std::abs(c) * image_.height);
   polygon.at_origin = float(a - float_error);
+  polygon.least_inverse = float((1 - std::min(rounding, kFlattest)) * (1 - kFloat) / farthest_m);
   polygon.per_u = float(b);
   polygon.per_v = float(c);
 }

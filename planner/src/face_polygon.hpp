@@ -30,8 +30,9 @@ struct FacePolygon {
 
   /// 1 / depth is at least at_origin + per_u · u + per_v · v (pixels), for certain pixels.
   float at_origin, per_u, per_v;
-  double nearest_m;  ///< no point of it is nearer
-  bool grazing;      ///< seen from so flat that nothing is known of its rays' depths
+  float least_inverse;  ///< of all depths that count
+  double nearest_m;     ///< no point of it is nearer
+  bool grazing;         ///< seen from so flat that nothing is known of its rays' depths
 };
 
 /// Projects faces into one camera.
@@ -58,7 +59,8 @@ class FaceProjector {
     double u, v;
   };
   void set_edges(std::span<const ImageCorner> corners, double margin, FacePolygon& polygon) const;
-  void set_depth(const Eigen::Vector3d& normal, double distance_m, FacePolygon& polygon) const;
+  void set_depth(const Eigen::Vector3d& normal, double distance_m, double farthest_m,
+                 FacePolygon& polygon) const;
 
   Intrinsics image_;
   DepthRange range_;

@@ -26,7 +26,7 @@ ShadowInView::ShadowInView(const PinholeCamera& view, const ShadowRectangles& re
   if (rectangles.list.empty()) return;
   if (!(projector.margin_m() < 0.1 * view.range().near_m)) {
     farthest_m = view.range().far_m;
-    add_whole_image(view.intrinsics());
+    add_whole_image(view.intrinsics(), view.range());
     return;
   }
   add_faces(projector, view, rectangles, in_shadow(grid, view.centre(), projector.margin_m()));
@@ -63,12 +63,13 @@ void ShadowInView::add_faces(const FaceProjector& projector, const PinholeCamera
   }
 }
 
-void ShadowInView::add_whole_image(const Intrinsics& image) {
+void ShadowInView::add_whole_image(const Intrinsics& image, const DepthRange& range) {
   FacePolygon all{};
   all.columns = columns = {0, image.width - 1};
   all.rows = rows = {0, image.height - 1};
   all.certain_rows = {0, -1};
   all.grazing = true;
+  all.least_inverse = float(1 / range.far_m);
   faces.push_back(all);
 }
 

@@ -23,7 +23,7 @@ struct ShadowInView {
  private:
   void add_faces(const FaceProjector& projector, const PinholeCamera& view,
                  const ShadowRectangles& rectangles, bool from_inside);
-  void add_whole_image(const Intrinsics& image);
+  void add_whole_image(const Intrinsics& image, const DepthRange& range);
 };
 
 }  // namespace vantage::detail

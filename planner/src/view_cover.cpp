@@ -1,125 +1,154 @@
 #include "view_cover.hpp"
 
 #include <algorithm>
+#include <cstring>
 
 #include "vantage/raycore/multiversion.hpp"
+
+// Vectors wider than the default instruction set's are passed between functions that are inlined,
+// so that there is no calling convention to change.
+#pragma GCC diagnostic ignored "-Wpsabi"
 
 namespace vantage::detail {
 namespace {
 
 constexpr int kRows = CoverBlock::kRows, kColumns = CoverBlock::kColumns;
 
-/// Pixels begin ≤ u < end of each row of a block row.
-struct RowSpans {
-  alignas(64) std::int32_t begin[kRows], end[kRows];
-};
+/// One element for each row of a block.
+using Floats = float __attribute__((vector_size(4 * kRows)));
+using Ints = std::int32_t __attribute__((vector_size(4 * kRows)));
+using Bits = std::uint32_t __attribute__((vector_size(4 * kRows)));
 
-/// The rows' columns between the polygon's edges, rounded to the pixels within.
-[[gnu::always_inline]] inline void find_spans(const FacePolygon& p, bool inner, PixelSpan rows,
-                                              int first_row, RowSpans& spans) {
-  alignas(64) float low[kRows], high[kRows];
-  for (int i = 0; i < kRows; ++i) {
-    low[i] = float(p.columns.first);
-    high[i] = float(p.columns.last);
-  }
-  for (int e = 0; e < p.left_edges; ++e) {
-    const float slope = p.left[e].slope, offset = inner ? p.left[e].inner : p.left[e].outer;
-    for (int i = 0; i < kRows; ++i) {
-      const float u = slope * float(first_row + i) + offset;
-      low[i] = u > low[i] ? u : low[i];
-    }
-  }
-  for (int e = 0; e < p.right_edges; ++e) {
-    const float slope = p.right[e].slope, offset = inner ? p.right[e].inner : p.right[e].outer;
-    for (int i = 0; i < kRows; ++i) {
-      const float u = slope * float(first_row + i) + offset;
-      high[i] = u < high[i] ? u : high[i];
-    }
-  }
-  const float beyond = float(p.columns.last + 1);
-  for (int i = 0; i < kRows; ++i) {
-    const float l = low[i] < beyond ? low[i] : beyond, h = high[i] > -1.0f ? high[i] : -1.0f;
-    const std::int32_t whole_l = std::int32_t(l), whole_h = std::int32_t(h);
-    const std::int32_t begin = whole_l + std::int32_t(float(whole_l) < l);
-    const std::int32_t end = whole_h + 1 - std::int32_t(float(whole_h) > h);
-    const int row = first_row + i;
-    const bool in_rows = (row >= rows.first) & (row <= rows.last);
-    spans.begin[i] = begin;
-    spans.end[i] = in_rows ? end : 0;
-  }
+constexpr Ints kCount = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
+
+#define VANTAGE_INLINE [[gnu::always_inline]] inline
+
+VANTAGE_INLINE Floats to_floats(const Ints& x) {
+  return __builtin_convertvector(x, Floats);
+}
+VANTAGE_INLINE Ints to_ints(const Floats& x) {
+  return __builtin_convertvector(x, Ints);
 }
 
-[[gnu::always_inline]] inline std::int32_t within_block(std::int32_t column, std::int32_t first) {
-  const std::int32_t c = column - first;
-  const std::int32_t positive = c > 0 ? c : 0;
-  return positive < kColumns ? positive : kColumns;
+template <class Lanes>
+VANTAGE_INLINE Lanes load(const void* from) {
+  Lanes lanes;
+  std::memcpy(&lanes, from, sizeof lanes);
+  return lanes;
+}
+template <class Lanes>
+VANTAGE_INLINE void store(const Lanes& lanes, void* to) {
+  std::memcpy(to, &lanes, sizeof lanes);
+}
+
+/// Pixels begin ≤ u < end of each row.
+struct RowSpans {
+  Ints begin, end;
+};
+
+/// The columns between a polygon's edges, rounded to the pixels within.
+template <float PolygonEdge::*kOffset>
+VANTAGE_INLINE RowSpans find_spans(const FacePolygon& p, PixelSpan rows, int first_row) {
+  const Ints row = first_row + kCount;
+  const Floats v = to_floats(row);
+  Floats low = Floats{} + float(p.columns.first), high = Floats{} + float(p.columns.last);
+  for (int e = 0; e < p.left_edges; ++e) {
+    const Floats u = p.left[e].slope * v + p.left[e].*kOffset;
+    low = u > low ? u : low;
+  }
+  for (int e = 0; e < p.right_edges; ++e) {
+    const Floats u = p.right[e].slope * v + p.right[e].*kOffset;
+    high = u < high ? u : high;
+  }
+  const Floats beyond = Floats{} + float(p.columns.last + 1), before = Floats{} - 1.0f;
+  low = low < beyond ? low : beyond;
+  high = high > before ? high : before;
+  const Ints whole_low = to_ints(low), whole_high = to_ints(high);
+  // A comparison is -1 where it is true.
+  const Ints begin = whole_low - (to_floats(whole_low) < low);
+  const Ints end = whole_high + 1 + (to_floats(whole_high) > high);
+  return {begin, end & (row >= rows.first) & (row <= rows.last)};
+}
+
+VANTAGE_INLINE Ints within_block(const Ints& column, int first) {
+  const Ints c = column - first, none = Ints{}, all = Ints{} + kColumns;
+  const Ints positive = c > none ? c : none;
+  return positive < all ? positive : all;
 }
 
 /// The lowest n bits, n from 0 to 32.
-[[gnu::always_inline]] inline std::uint32_t low_bits(std::int32_t n) {
-  const std::uint32_t ones = 0xFFFFFFFFu >> ((32 - n) & 31);
-  return n > 0 ? ones : 0;
+VANTAGE_INLINE Bits low_bits(const Ints& n) {
+  const Bits ones = (Bits{} + 0xFFFFFFFFu) >> (Bits)((32 - n) & 31);
+  return n > 0 ? ones : Bits{};
 }
 
-/// std::popcount, in a form that is vectorised everywhere.
-[[gnu::always_inline]] inline std::int32_t bit_count(std::uint32_t x) {
+VANTAGE_INLINE Bits span_bits(const Ints& begin, const Ints& end) {
+  return low_bits(end) & ~low_bits(begin);
+}
+
+/// std::popcount in plain operations.
+VANTAGE_INLINE Floats bit_count(Bits x) {
   x -= (x >> 1) & 0x55555555u;
   x = (x & 0x33333333u) + ((x >> 2) & 0x33333333u);
   x = (x + (x >> 4)) & 0x0F0F0F0Fu;
   x += x >> 8;
-  return std::int32_t((x + (x >> 16)) & 63);
+  return to_floats((Ints)((x + (x >> 16)) & 63u));
 }
 
-[[gnu::always_inline]] inline void mark_possible(const RowSpans& spans, int first_column,
-                                                 std::uint32_t* mask) {
-  for (int i = 0; i < kRows; ++i) {
-    mask[i] = low_bits(within_block(spans.end[i], first_column)) &
-              ~low_bits(within_block(spans.begin[i], first_column));
-  }
+VANTAGE_INLINE Floats weight_of(const WeightBound& w, const Floats& inverse) {
+  const Floats part = w.per_far / inverse;
+  Floats weight = Floats{} + w.factor;
+  for (int factor = 0; factor < w.power; ++factor) weight *= part;
+  return weight;
 }
 
-/// What a pixel in each row counts at most whose 1 / depth is `inverse`.
-[[gnu::always_inline]] inline void weigh(const WeightBound& w, const float* inverse,
-                                         float* weight) {
-  alignas(64) float part[kRows];
-  for (int i = 0; i < kRows; ++i) {
-    const float depths_per_far = inverse[i] > w.per_far ? inverse[i] : w.per_far;
-    part[i] = w.per_far / depths_per_far;
-    weight[i] = w.factor;
-  }
-  for (int factor = 0; factor < w.power; ++factor) {
-    for (int i = 0; i < kRows; ++i) weight[i] *= part[i];
-  }
+/// What a face's pixels count at the columns where blocks meet.
+struct Node {
+  Floats inverse, weight;
+};
+VANTAGE_INLINE Node node_at(const FacePolygon& p, const WeightBound& w, int row, int column) {
+  const Floats inverse =
+      (p.at_origin + p.per_u * float(column)) + p.per_v * to_floats(row + kCount);
+  const Floats least = Floats{} + 0.25f * p.least_inverse;
+  return {inverse, weight_of(w, inverse > least ? inverse : least)};
 }
 
-[[gnu::always_inline]] inline void draw_block(const FacePolygon& p, const WeightBound& w,
-                                              const RowSpans& outer, const RowSpans& inner,
-                                              int first_row, int first_column, CoverBlock& block) {
-  alignas(64) std::uint32_t may[kRows], must[kRows];
-  alignas(64) float left_inverse[kRows], right_inverse[kRows], left[kRows], right[kRows];
-  mark_possible(outer, first_column, may);
-  mark_possible(inner, first_column, must);
-  for (int i = 0; i < kRows; ++i) {
-    const float begin = float(first_column + within_block(inner.begin[i], first_column));
-    const float last = float(first_column + within_block(inner.end[i], first_column) - 1);
-    const float at_row = p.at_origin + p.per_v * float(first_row + i);
-    left_inverse[i] = at_row + p.per_u * begin;
-    right_inverse[i] = at_row + p.per_u * last;
-  }
-  weigh(w, left_inverse, left);
-  weigh(w, right_inverse, right);
-  const float doubtful = p.grazing ? w.anything : w.uncertain;
-  for (int i = 0; i < kRows; ++i) {
-    const std::uint32_t before = block.certain[i];
-    const std::uint32_t fresh = must[i] & ~before, unsure = may[i] & ~must[i] & ~before;
-    // depth^power is convex along a row: over a whole span it is the ends' mean at most.
-    const float mean = 0.5f * (left[i] + right[i]);
-    const float larger = left[i] > right[i] ? left[i] : right[i];
-    const float each = fresh == must[i] ? mean : larger;
-    block.bound[i] += float(bit_count(fresh)) * each + float(bit_count(unsure)) * doubtful;
-    block.certain[i] = before | must[i];
-    block.possible[i] |= may[i];
-  }
+/// What each of the pixels begin … end - 1 of a block counts on average, or if not all of them do,
+/// at most. depth^power is convex along a row, so that it is below the straight line between the
+/// block's two ends, unless the face's plane is behind the camera there.
+VANTAGE_INLINE Floats weight_of_each(const FacePolygon& p, float largest, const Node& left,
+                                     const Node& right, const Floats& begin, const Floats& end,
+                                     const Ints& all) {
+  const Floats slope = (right.weight - left.weight) * (1.0f / kColumns);
+  const Floats first = left.weight + slope * begin, last = left.weight + slope * (end - 1.0f);
+  const Floats mean = 0.5f * (first + last), larger = first > last ? first : last;
+  const Floats line = all ? mean : larger, most = Floats{} + largest;
+  const Floats least = Floats{} + 0.25f * p.least_inverse;
+  return ((left.inverse > least) & (right.inverse > least) & (line < most)) ? line : most;
+}
+
+/// What is the same for all blocks of a polygon.
+struct Drawing {
+  const FacePolygon& polygon;
+  float largest;   ///< weight of its farthest point
+  float doubtful;  ///< weight of pixels that may show it or not
+};
+
+VANTAGE_INLINE void draw_block(const Drawing& d, const RowSpans& outer, const RowSpans& inner,
+                               const Node& left, const Node& right, int first_column,
+                               CoverBlock& block) {
+  const Bits may =
+      span_bits(within_block(outer.begin, first_column), within_block(outer.end, first_column));
+  const Ints begin = within_block(inner.begin, first_column);
+  const Ints end = within_block(inner.end, first_column);
+  const Bits must = span_bits(begin, end), before = load<Bits>(block.certain);
+  const Bits fresh = must & ~before, unsure = may & ~must & ~before;
+  const Floats each = weight_of_each(d.polygon, d.largest, left, right, to_floats(begin),
+                                     to_floats(end), fresh == must);
+  store(load<Floats>(block.bound) + bit_count(fresh) * each + bit_count(unsure) * d.doubtful,
+        block.bound);
+  store(before | must, block.certain);
+  store(load<Bits>(block.possible) | may, block.possible);
 }
 
 /// The blocks that a polygon may touch.
@@ -137,13 +166,18 @@ VANTAGE_MULTIVERSION
 void draw_polygon(const FacePolygon& p, const WeightBound& w, int origin_chunk, int origin_group,
                   int chunks, CoverBlock* blocks) {
   const Reach reach(p);
-  RowSpans outer, inner;
+  const Drawing drawing{p, weight_of(w, Floats{} + p.least_inverse)[0],
+                        p.grazing ? w.anything : w.uncertain};
   for (int group = reach.first_group; group <= reach.last_group; ++group) {
-    find_spans(p, false, p.rows, group * kRows, outer);
-    find_spans(p, true, p.certain_rows, group * kRows, inner);
-    CoverBlock* row = blocks + (group - origin_group) * chunks - origin_chunk;
+    const int row = group * kRows;
+    const RowSpans outer = find_spans<&PolygonEdge::outer>(p, p.rows, row);
+    const RowSpans inner = find_spans<&PolygonEdge::inner>(p, p.certain_rows, row);
+    CoverBlock* block_row = blocks + (group - origin_group) * chunks - origin_chunk;
+    Node left = node_at(p, w, row, reach.first_chunk * kColumns);
     for (int chunk = reach.first_chunk; chunk <= reach.last_chunk; ++chunk) {
-      draw_block(p, w, outer, inner, group * kRows, chunk * kColumns, row[chunk]);
+      const Node right = node_at(p, w, row, (chunk + 1) * kColumns);
+      draw_block(drawing, outer, inner, left, right, chunk * kColumns, block_row[chunk]);
+      left = right;
     }
   }
 }
@@ -152,14 +186,13 @@ VANTAGE_MULTIVERSION
 void draw_outline(const FacePolygon& p, int origin_chunk, int origin_group, int chunks,
                   CoverBlock* blocks) {
   const Reach reach(p);
-  RowSpans outer;
-  alignas(64) std::uint32_t may[kRows];
   for (int group = reach.first_group; group <= reach.last_group; ++group) {
-    find_spans(p, false, p.rows, group * kRows, outer);
-    CoverBlock* row = blocks + (group - origin_group) * chunks - origin_chunk;
+    const RowSpans outer = find_spans<&PolygonEdge::outer>(p, p.rows, group * kRows);
+    CoverBlock* block_row = blocks + (group - origin_group) * chunks - origin_chunk;
     for (int chunk = reach.first_chunk; chunk <= reach.last_chunk; ++chunk) {
-      mark_possible(outer, chunk * kColumns, may);
-      for (int i = 0; i < kRows; ++i) row[chunk].possible[i] |= may[i];
+      const Bits may = span_bits(within_block(outer.begin, chunk * kColumns),
+                                 within_block(outer.end, chunk * kColumns));
+      store(load<Bits>(block_row[chunk].possible) | may, block_row[chunk].possible);
     }
   }
 }
