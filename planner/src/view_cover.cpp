@@ -1,154 +1,167 @@
 #include "view_cover.hpp"
 
 #include <algorithm>
-#include <cstring>
+#include <cmath>
 
 #include "vantage/raycore/multiversion.hpp"
-
-// Vectors wider than the default instruction set's are passed between functions that are inlined,
-// so that there is no calling convention to change.
-#pragma GCC diagnostic ignored "-Wpsabi"
 
 namespace vantage::detail {
 namespace {
 
 constexpr int kRows = CoverBlock::kRows, kColumns = CoverBlock::kColumns;
 
-/// One element for each row of a block.
-using Floats = float __attribute__((vector_size(4 * kRows)));
-using Ints = std::int32_t __attribute__((vector_size(4 * kRows)));
-using Bits = std::uint32_t __attribute__((vector_size(4 * kRows)));
+/// One element for each row of a block: a vector register, or a few.
+template <class T>
+struct alignas(64) Lanes {
+  T at[kRows];
+};
 
-constexpr Ints kCount = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
-
-#define VANTAGE_INLINE [[gnu::always_inline]] inline
-
-VANTAGE_INLINE Floats to_floats(const Ints& x) {
-  return __builtin_convertvector(x, Floats);
-}
-VANTAGE_INLINE Ints to_ints(const Floats& x) {
-  return __builtin_convertvector(x, Ints);
-}
-
-template <class Lanes>
-VANTAGE_INLINE Lanes load(const void* from) {
-  Lanes lanes;
-  std::memcpy(&lanes, from, sizeof lanes);
-  return lanes;
-}
-template <class Lanes>
-VANTAGE_INLINE void store(const Lanes& lanes, void* to) {
-  std::memcpy(to, &lanes, sizeof lanes);
-}
+/// A loop over the rows of a block. Unless told not to, the compiler unrolls it before it comes to
+/// vectorise it.
+#define VANTAGE_EACH_ROW(i) _Pragma("GCC unroll 1") for (int i = 0; i < kRows; ++i)
 
 /// Pixels begin ≤ u < end of each row.
 struct RowSpans {
-  Ints begin, end;
+  Lanes<std::int32_t> begin, end;
 };
 
 /// The columns between a polygon's edges, rounded to the pixels within.
 template <float PolygonEdge::*kOffset>
-VANTAGE_INLINE RowSpans find_spans(const FacePolygon& p, PixelSpan rows, int first_row) {
-  const Ints row = first_row + kCount;
-  const Floats v = to_floats(row);
-  Floats low = Floats{} + float(p.columns.first), high = Floats{} + float(p.columns.last);
+[[gnu::always_inline]] inline void find_spans(const FacePolygon& p, PixelSpan rows, int first_row,
+                                              RowSpans& spans) {
+  Lanes<float> low, high;
+  VANTAGE_EACH_ROW(i) {
+    low.at[i] = float(p.columns.first);
+    high.at[i] = float(p.columns.last);
+  }
   for (int e = 0; e < p.left_edges; ++e) {
-    const Floats u = p.left[e].slope * v + p.left[e].*kOffset;
-    low = u > low ? u : low;
+    const float slope = p.left[e].slope, offset = p.left[e].*kOffset;
+    VANTAGE_EACH_ROW(i) {
+      const float u = slope * float(first_row + i) + offset;
+      low.at[i] = u > low.at[i] ? u : low.at[i];
+    }
   }
   for (int e = 0; e < p.right_edges; ++e) {
-    const Floats u = p.right[e].slope * v + p.right[e].*kOffset;
-    high = u < high ? u : high;
+    const float slope = p.right[e].slope, offset = p.right[e].*kOffset;
+    VANTAGE_EACH_ROW(i) {
+      const float u = slope * float(first_row + i) + offset;
+      high.at[i] = u < high.at[i] ? u : high.at[i];
+    }
   }
-  const Floats beyond = Floats{} + float(p.columns.last + 1), before = Floats{} - 1.0f;
-  low = low < beyond ? low : beyond;
-  high = high > before ? high : before;
-  const Ints whole_low = to_ints(low), whole_high = to_ints(high);
-  // A comparison is -1 where it is true.
-  const Ints begin = whole_low - (to_floats(whole_low) < low);
-  const Ints end = whole_high + 1 + (to_floats(whole_high) > high);
-  return {begin, end & (row >= rows.first) & (row <= rows.last)};
+  const float beyond = float(p.columns.last + 1);
+  VANTAGE_EACH_ROW(i) {
+    low.at[i] = low.at[i] < beyond ? low.at[i] : beyond;
+    high.at[i] = high.at[i] > -1.0f ? high.at[i] : -1.0f;
+  }
+  VANTAGE_EACH_ROW(i) {
+    const float l = low.at[i], h = high.at[i];
+    const std::int32_t whole_l = std::int32_t(l), whole_h = std::int32_t(h);
+    const std::int32_t in_rows = (first_row + i >= rows.first) & (first_row + i <= rows.last);
+    spans.begin.at[i] = whole_l + std::int32_t(float(whole_l) < l);
+    spans.end.at[i] = (whole_h + 1 - std::int32_t(float(whole_h) > h)) * in_rows;
+  }
 }
 
-VANTAGE_INLINE Ints within_block(const Ints& column, int first) {
-  const Ints c = column - first, none = Ints{}, all = Ints{} + kColumns;
-  const Ints positive = c > none ? c : none;
-  return positive < all ? positive : all;
+[[gnu::always_inline]] inline std::int32_t within_block(std::int32_t column, std::int32_t first) {
+  const std::int32_t c = column - first;
+  const std::int32_t positive = c > 0 ? c : 0;
+  return positive < kColumns ? positive : kColumns;
 }
 
-/// The lowest n bits, n from 0 to 32.
-VANTAGE_INLINE Bits low_bits(const Ints& n) {
-  const Bits ones = (Bits{} + 0xFFFFFFFFu) >> (Bits)((32 - n) & 31);
-  return n > 0 ? ones : Bits{};
+/// The bits begin … end - 1, for numbers from 0 to 32.
+[[gnu::always_inline]] inline std::uint32_t span_bits(std::int32_t begin, std::int32_t end) {
+  const std::uint32_t up_to_end = 0xFFFFFFFFu >> ((kColumns - end) & 31);
+  const std::uint32_t from_begin = 0xFFFFFFFFu << (begin & 31);
+  return up_to_end & from_begin & (0u - std::uint32_t(begin < end));
 }
 
-VANTAGE_INLINE Bits span_bits(const Ints& begin, const Ints& end) {
-  return low_bits(end) & ~low_bits(begin);
-}
-
-/// std::popcount in plain operations.
-VANTAGE_INLINE Floats bit_count(Bits x) {
+/// std::popcount, in a form that is vectorised everywhere.
+[[gnu::always_inline]] inline float bit_count(std::uint32_t x) {
   x -= (x >> 1) & 0x55555555u;
   x = (x & 0x33333333u) + ((x >> 2) & 0x33333333u);
   x = (x + (x >> 4)) & 0x0F0F0F0Fu;
   x += x >> 8;
-  return to_floats((Ints)((x + (x >> 16)) & 63u));
-}
-
-VANTAGE_INLINE Floats weight_of(const WeightBound& w, const Floats& inverse) {
-  const Floats part = w.per_far / inverse;
-  Floats weight = Floats{} + w.factor;
-  for (int factor = 0; factor < w.power; ++factor) weight *= part;
-  return weight;
-}
-
-/// What a face's pixels count at the columns where blocks meet.
-struct Node {
-  Floats inverse, weight;
-};
-VANTAGE_INLINE Node node_at(const FacePolygon& p, const WeightBound& w, int row, int column) {
-  const Floats inverse =
-      (p.at_origin + p.per_u * float(column)) + p.per_v * to_floats(row + kCount);
-  const Floats least = Floats{} + 0.25f * p.least_inverse;
-  return {inverse, weight_of(w, inverse > least ? inverse : least)};
-}
-
-/// What each of the pixels begin … end - 1 of a block counts on average, or if not all of them do,
-/// at most. depth^power is convex along a row, so that it is below the straight line between the
-/// block's two ends, unless the face's plane is behind the camera there.
-VANTAGE_INLINE Floats weight_of_each(const FacePolygon& p, float largest, const Node& left,
-                                     const Node& right, const Floats& begin, const Floats& end,
-                                     const Ints& all) {
-  const Floats slope = (right.weight - left.weight) * (1.0f / kColumns);
-  const Floats first = left.weight + slope * begin, last = left.weight + slope * (end - 1.0f);
-  const Floats mean = 0.5f * (first + last), larger = first > last ? first : last;
-  const Floats line = all ? mean : larger, most = Floats{} + largest;
-  const Floats least = Floats{} + 0.25f * p.least_inverse;
-  return ((left.inverse > least) & (right.inverse > least) & (line < most)) ? line : most;
+  return float(std::int32_t((x + (x >> 16)) & 63u));
 }
 
 /// What is the same for all blocks of a polygon.
 struct Drawing {
   const FacePolygon& polygon;
+  const WeightBound& weight;
   float largest;   ///< weight of its farthest point
   float doubtful;  ///< weight of pixels that may show it or not
+  float least;     ///< 1 / depth below which no line between weights is trusted
+
+  Drawing(const FacePolygon& p, const WeightBound& w)
+      : polygon(p),
+        weight(w),
+        largest(w.factor),
+        doubtful(p.grazing ? w.anything : w.uncertain),
+        least(0.25f * p.least_inverse) {
+    for (int factor = 0; factor < w.power; ++factor) largest *= w.per_far / p.least_inverse;
+  }
 };
 
-VANTAGE_INLINE void draw_block(const Drawing& d, const RowSpans& outer, const RowSpans& inner,
-                               const Node& left, const Node& right, int first_column,
-                               CoverBlock& block) {
-  const Bits may =
-      span_bits(within_block(outer.begin, first_column), within_block(outer.end, first_column));
-  const Ints begin = within_block(inner.begin, first_column);
-  const Ints end = within_block(inner.end, first_column);
-  const Bits must = span_bits(begin, end), before = load<Bits>(block.certain);
-  const Bits fresh = must & ~before, unsure = may & ~must & ~before;
-  const Floats each = weight_of_each(d.polygon, d.largest, left, right, to_floats(begin),
-                                     to_floats(end), fresh == must);
-  store(load<Floats>(block.bound) + bit_count(fresh) * each + bit_count(unsure) * d.doubtful,
-        block.bound);
-  store(before | must, block.certain);
-  store(load<Bits>(block.possible) | may, block.possible);
+/// What a face's pixels count at a column where blocks meet.
+struct Node {
+  Lanes<float> weight;
+  Lanes<std::int32_t> trusted;
+};
+
+[[gnu::always_inline]] inline void find_node(const Drawing& d, int row, int column, Node& node) {
+  const float at_column = d.polygon.at_origin + d.polygon.per_u * float(column);
+  Lanes<float> part;
+  VANTAGE_EACH_ROW(i) {
+    const float inverse = at_column + d.polygon.per_v * float(row + i);
+    node.trusted.at[i] = inverse > d.least;
+    part.at[i] = d.weight.per_far / (inverse > d.least ? inverse : d.least);
+    node.weight.at[i] = d.weight.factor;
+  }
+  for (int factor = 0; factor < d.weight.power; ++factor) {
+    VANTAGE_EACH_ROW(i) node.weight.at[i] *= part.at[i];
+  }
+}
+
+/// Adds to each row what its fresh pixels count at most. depth^power is convex along a row, so that
+/// it is below the straight line between a block's two ends, unless the face's plane is behind the
+/// camera there. On that line, all pixels of a span count their mean, some at most the larger end.
+[[gnu::always_inline]] inline void draw_block(const Drawing& d, const RowSpans& outer,
+                                              const RowSpans& inner, const Node& left,
+                                              const Node& right, int first_column,
+                                              CoverBlock& block) {
+  Lanes<std::int32_t> begin, end, may_begin, may_end;
+  VANTAGE_EACH_ROW(i) {
+    begin.at[i] = within_block(inner.begin.at[i], first_column);
+    end.at[i] = within_block(inner.end.at[i], first_column);
+    may_begin.at[i] = within_block(outer.begin.at[i], first_column);
+    may_end.at[i] = within_block(outer.end.at[i], first_column);
+  }
+  Lanes<std::uint32_t> must, may;
+  VANTAGE_EACH_ROW(i) {
+    must.at[i] = span_bits(begin.at[i], end.at[i]);
+    may.at[i] = span_bits(may_begin.at[i], may_end.at[i]);
+  }
+  Lanes<float> fresh_count, unsure_count, some;
+  VANTAGE_EACH_ROW(i) {
+    const std::uint32_t before = block.certain[i], fresh = must.at[i] & ~before;
+    fresh_count.at[i] = bit_count(fresh);
+    unsure_count.at[i] = bit_count(may.at[i] & ~must.at[i] & ~before);
+    some.at[i] = float(std::int32_t(fresh != must.at[i]));
+    block.certain[i] = before | must.at[i];
+    block.possible[i] |= may.at[i];
+  }
+  const float largest = d.largest, doubtful = d.doubtful;
+  VANTAGE_EACH_ROW(i) {
+    const float at_left = left.weight.at[i];
+    const float slope = (right.weight.at[i] - at_left) * (1.0f / kColumns);
+    const float first = at_left + slope * float(begin.at[i]);
+    const float last = at_left + slope * float(end.at[i] - 1);
+    const float doubt = float(1 - (left.trusted.at[i] & right.trusted.at[i]));
+    const float line =
+        0.5f * (first + last) + some.at[i] * 0.5f * std::fabs(last - first) + doubt * largest;
+    const float each = line < largest ? line : largest;
+    block.bound[i] += fresh_count.at[i] * each + unsure_count.at[i] * doubtful;
+  }
 }
 
 /// The blocks that a polygon may touch.
@@ -166,18 +179,20 @@ VANTAGE_MULTIVERSION
 void draw_polygon(const FacePolygon& p, const WeightBound& w, int origin_chunk, int origin_group,
                   int chunks, CoverBlock* blocks) {
   const Reach reach(p);
-  const Drawing drawing{p, weight_of(w, Floats{} + p.least_inverse)[0],
-                        p.grazing ? w.anything : w.uncertain};
+  const Drawing drawing(p, w);
+  RowSpans outer, inner;
+  Node nodes[2];
   for (int group = reach.first_group; group <= reach.last_group; ++group) {
     const int row = group * kRows;
-    const RowSpans outer = find_spans<&PolygonEdge::outer>(p, p.rows, row);
-    const RowSpans inner = find_spans<&PolygonEdge::inner>(p, p.certain_rows, row);
+    find_spans<&PolygonEdge::outer>(p, p.rows, row, outer);
+    find_spans<&PolygonEdge::inner>(p, p.certain_rows, row, inner);
     CoverBlock* block_row = blocks + (group - origin_group) * chunks - origin_chunk;
-    Node left = node_at(p, w, row, reach.first_chunk * kColumns);
+    find_node(drawing, row, reach.first_chunk * kColumns, nodes[reach.first_chunk & 1]);
     for (int chunk = reach.first_chunk; chunk <= reach.last_chunk; ++chunk) {
-      const Node right = node_at(p, w, row, (chunk + 1) * kColumns);
+      const Node& left = nodes[chunk & 1];
+      Node& right = nodes[(chunk + 1) & 1];
+      find_node(drawing, row, (chunk + 1) * kColumns, right);
       draw_block(drawing, outer, inner, left, right, chunk * kColumns, block_row[chunk]);
-      left = right;
     }
   }
 }
@@ -186,13 +201,18 @@ VANTAGE_MULTIVERSION
 void draw_outline(const FacePolygon& p, int origin_chunk, int origin_group, int chunks,
                   CoverBlock* blocks) {
   const Reach reach(p);
+  RowSpans outer;
+  Lanes<std::int32_t> begin, end;
   for (int group = reach.first_group; group <= reach.last_group; ++group) {
-    const RowSpans outer = find_spans<&PolygonEdge::outer>(p, p.rows, group * kRows);
+    find_spans<&PolygonEdge::outer>(p, p.rows, group * kRows, outer);
     CoverBlock* block_row = blocks + (group - origin_group) * chunks - origin_chunk;
     for (int chunk = reach.first_chunk; chunk <= reach.last_chunk; ++chunk) {
-      const Bits may = span_bits(within_block(outer.begin, chunk * kColumns),
-                                 within_block(outer.end, chunk * kColumns));
-      store(load<Bits>(block_row[chunk].possible) | may, block_row[chunk].possible);
+      std::uint32_t* possible = block_row[chunk].possible;
+      VANTAGE_EACH_ROW(i) {
+        begin.at[i] = within_block(outer.begin.at[i], chunk * kColumns);
+        end.at[i] = within_block(outer.end.at[i], chunk * kColumns);
+      }
+      VANTAGE_EACH_ROW(i) possible[i] |= span_bits(begin.at[i], end.at[i]);
     }
   }
 }
