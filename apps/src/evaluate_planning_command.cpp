@@ -8,6 +8,7 @@
 #include "evaluation/planning_tables.hpp"
 #include "inputs_json.hpp"
 #include "interrupt.hpp"
+#include "plan_json.hpp"
 #include "planning_json.hpp"
 #include "planning_runs.hpp"
 #include "progress_line.hpp"
@@ -39,6 +40,7 @@ struct PlanningArguments {
 struct PlanningResult {
   PlanningEvaluation evaluation;
   std::vector<PagePicture> pictures;
+  std::vector<PlanRequest> requests;  ///< as the workcells have them
   std::vector<fs::path> files;
 };
 
@@ -75,6 +77,7 @@ PlanningResult evaluate_cells(const std::vector<PlanningCell>& cells,
       result.pictures.push_back(std::move(picture));
     }
     result.evaluation.scenes.push_back(std::move(one.scene));
+    result.requests.push_back(cells[i].request);
     result.files.insert(result.files.end(), cells[i].files.begin(), cells[i].files.end());
   }
   return result;
@@ -91,9 +94,20 @@ Json config_json(const PlanningArguments& arguments, const PlanningSettings& set
       {"voxel_size_m", settings.voxel_size_m ? Json(*settings.voxel_size_m) : Json()}};
 }
 
+Json config_json(const PlanRequest& request) {
+  const Json all = config_of(request);
+  return {{"work_area", all["work_area"]},
+          {"movable_camera", camera_json(request)},
+          {"constraints", all["constraints"]},
+          {"volume", all["volume"]}};
+}
+
 Json json_of(const PlanningResult& result, const PlanningArguments& arguments,
              const PlanningSettings& settings) {
   Json json = planning_to_json(result.evaluation);
+  for (std::size_t i = 0; i < result.requests.size(); ++i) {
+    json["scenes"][i]["config"] = config_json(result.requests[i]);
+  }
   Json timing = json["timing"];
   json.erase("timing");
   json["config"] = config_json(arguments, settings);

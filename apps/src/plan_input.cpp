@@ -2,6 +2,7 @@
 
 #include <chrono>
 
+#include "plan_request.hpp"
 #include "vantage/raycore/error.hpp"
 #include "volume_settings.hpp"
 #include "workcell.hpp"
@@ -34,13 +35,8 @@ VolumeOptions volume_of(const Workcell& workcell, const PlanOptions& options) {
 
 PlanRequest request_of(const Workcell& workcell, const PlanOptions& options,
                        const Intrinsics& first_camera) {
-  PlanRequest request{.work_area = workcell.work_area,
-                      .intrinsics = workcell.movable_intrinsics.value_or(first_camera),
-                      .range = workcell.movable_range};
-  request.candidates = workcell.candidates;
-  request.constraints = workcell.constraints;
+  PlanRequest request = plan_request(workcell, first_camera);
   request.volume = volume_of(workcell, options);
-  if (workcell.voxel_size_m) request.voxel_size_m = *workcell.voxel_size_m;
   if (options.voxel_size_m) request.voxel_size_m = *options.voxel_size_m;
   return request;
 }

@@ -15,18 +15,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json camera_json(const PlanRequest& request) {
-  const Intrinsics& k = request.intrinsics;
-  return {{"width", k.width},
-          {"height", k.height},
-          {"fx", k.fx},
-          {"fy", k.fy},
-          {"cx", k.cx},
-          {"cy", k.cy},
-          {"near_m", request.range.near_m},
-          {"far_m", request.range.far_m}};
-}
-
 double milliseconds(double seconds) {
   return std::round(seconds * 1e6) / 1e3;
 }
@@ -60,6 +48,18 @@ Json plan_to_json(const Plan& plan, const ShadowRegions* regions,
             {"total", milliseconds(record.total_s)}}},
           {"config", record.config},
           {"inputs", inputs_json(record.inputs)}};
+}
+
+Json camera_json(const PlanRequest& request) {
+  const Intrinsics& k = request.intrinsics;
+  return {{"width", k.width},
+          {"height", k.height},
+          {"fx", k.fx},
+          {"fy", k.fy},
+          {"cx", k.cx},
+          {"cy", k.cy},
+          {"near_m", request.range.near_m},
+          {"far_m", request.range.far_m}};
 }
 
 Json config_of(const PlanRequest& request) {

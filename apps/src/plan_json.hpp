@@ -25,6 +25,9 @@ nlohmann::ordered_json plan_to_json(const Plan& plan, const ShadowRegions* regio
                                     const std::vector<ViewExplanation>& explained,
                                     const PlanRecord& record);
 
+/// The movable camera.
+nlohmann::ordered_json camera_json(const PlanRequest& request);
+
 /// The settings that the planner used, for `PlanRecord::config`.
 nlohmann::ordered_json config_of(const PlanRequest& request);
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "plan_request.hpp"
 #include "simulated_cell.hpp"
 #include "simulator/depth_sensor.hpp"
 #include "simulator/sample_hash.hpp"
@@ -85,17 +86,6 @@ WorldModel world_of(const Workcell& workcell, const SimulatedScene& scene,
   return world;
 }
 
-PlanRequest request_of(const Workcell& workcell) {
-  PlanRequest request{
-      .work_area = workcell.work_area,
-      .intrinsics = workcell.movable_intrinsics.value_or(workcell.sensor_intrinsics),
-      .range = workcell.movable_range};
-  request.constraints = workcell.constraints;
-  request.volume = workcell.volume;
-  if (workcell.voxel_size_m) request.voxel_size_m = *workcell.voxel_size_m;
-  return request;
-}
-
 std::string title_of(const PlanningCellName& name, const WorldModel& world, DepthKind kind) {
   std::vector<std::string> cameras;
   for (const Observer& camera : world.cameras) cameras.push_back(camera.name);
@@ -144,7 +134,7 @@ PlanningCell load_planning_cell(const PlanningCellName& name, DepthKind usual, s
   return {title,
           kDepthKinds[std::size_t(kind)],
           std::move(world),
-          request_of(workcell),
+          plan_request(workcell, workcell.sensor_intrinsics),
           std::move(scene),
           workcell.files};
 }
