@@ -36,7 +36,7 @@ struct Workcell {
   std::optional<Intrinsics> movable_intrinsics = {};     ///< none: like the dataset's first camera
   DepthRange movable_range = {};
   CandidateSet candidates = production_views();
-  ViewConstraints constraints = {};  ///< of the movable camera
+  ViewConstraints constraints = ViewConstraints();  ///< of the movable camera
   std::shared_ptr<const KnowledgeBase> knowledge =
       std::make_shared<const MemoryKnowledgeBase>();  ///< never null; without types if there is
                                                       ///< none
