@@ -11,7 +11,7 @@ namespace {
 
 // Some 4,000 rays: small enough to stop within a fraction of a millisecond.
 constexpr std::size_t kMostPackets = 256;
-// Fewer are not worth the look at the bounds in between.
+// Fewer, or much fewer than were traced before, are not worth the look at the bounds in between.
 constexpr std::size_t kFewestPackets = 4;
 
 /// Points that are in view and not hidden, of four packets at a time.
@@ -89,7 +89,8 @@ std::size_t ViewCount::next_batch_size() const {
   Score least = ~Score(0);
   for (const View& view : active_) least = std::min(least, view.bound - needed_[view.index]);
   const std::size_t wanted = std::size_t(std::min<Score>(least / kPacketWidth + 1, kMostPackets));
-  return std::min(std::max(wanted, kFewestPackets), set_.packets() - done_);
+  const std::size_t worth_it = std::max(kFewestPackets, std::min(done_ / 2, kMostPackets));
+  return std::min(std::max(wanted, worth_it), set_.packets() - done_);
 }
 
 void ViewCount::look_at(std::span<const std::uint32_t> packets) {

@@ -41,8 +41,8 @@ std::vector<PinholeCamera> cameras_at(const std::vector<Eigen::Vector3d>& eyes) 
 
 test::TurnedBox box_at(const Eigen::Vector3d& centre, const Eigen::Vector3d& size, double angle) {
   return {0.5 * size,
-          Pose::from_rotation(
-              Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitZ()).toRotationMatrix(), centre)};
+          Pose::from_rotation(Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitZ()).toRotationMatrix(),
+                              centre)};
 }
 
 }  // namespace

@@ -19,4 +19,20 @@ std::vector<std::uint8_t> plain_visible(PointsView points, const Scene& occluder
 std::vector<std::uint64_t> plain_scores(PointsView points, const Scene& occluders,
                                         std::span<const PinholeCamera> views);
 
+/// The thesis' way (7.2.3): a point in view is seen if the segment to the camera meets none of a
+/// list of voxels, tried one after the other, in double.
+class PlainList {
+ public:
+  /// @param voxels a work area's occupied voxels: their centres.
+  PlainList(PointsView voxels, double voxel_size_m);
+
+  std::uint64_t score(PointsView points, const PinholeCamera& view) const;
+
+ private:
+  bool seen(const Eigen::Vector3d& point, const Eigen::Vector3d& eye) const;
+
+  std::vector<Eigen::Vector3d> centres_;
+  double half_m_;
+};
+
 }  // namespace vantage::test
