@@ -89,7 +89,7 @@ std::size_t ViewCount::next_batch_size() const {
   Score least = ~Score(0);
   for (const View& view : active_) least = std::min(least, view.bound - needed_[view.index]);
   const std::size_t wanted = std::size_t(std::min<Score>(least / kPacketWidth + 1, kMostPackets));
-  const std::size_t worth_it = std::max(kFewestPackets, std::min(done_ / 2, kMostPackets));
+  const std::size_t worth_it = std::max(kFewestPackets, std::min(done_, kMostPackets));
   return std::min(std::max(wanted, worth_it), set_.packets() - done_);
 }
 
