@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "bench_planner_rays.hpp"
 #include "bench_planner_scenes.hpp"
 #include "reference/plain_views.hpp"
 #include "timing.hpp"
@@ -231,6 +232,7 @@ int main(int argc, char** argv) {
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;
   vantage::bench::add_voxel_rows();
+  vantage::bench::add_ray_rows();
   benchmark::RunSpecifiedBenchmarks();
   benchmark::Shutdown();
   return 0;

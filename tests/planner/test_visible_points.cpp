@@ -108,7 +108,7 @@ TEST_CASE("what is needed decides which views are counted to the end") {
     }
   }
   CHECK(exact > test::enough(300));
-  CHECK(bounded > test::enough(200));
+  CHECK(bounded > test::enough(100));
 }
 
 TEST_CASE("counts and bounds are the same at 1, 2, 3 and 8 threads") {
