@@ -13,106 +13,119 @@ namespace {
 
 constexpr int kSide = PixelTile::kSide;
 
-/// The tiles that may show shadow, column by column and row by row.
-class CandidateTiles {
+// Few enough that what they show spares many of those behind them, enough to be worth a call.
+constexpr std::size_t kBatchTiles = 8;
+
+/// The outermost of some pixels of a tile: bit i is pixel (i % 4, i / 4).
+ShadowBounds bounds_of(PixelTile tile, unsigned pixels) {
+  const unsigned columns = (pixels | pixels >> 4 | pixels >> 8 | pixels >> 12) & 0xF;
+  const int u = kSide * tile.column, v = kSide * tile.row;
+  return {u + std::countr_zero(columns), u + int(std::bit_width(columns)) - 1,
+          v + std::countr_zero(pixels) / kSide, v + (int(std::bit_width(pixels)) - 1) / kSide};
+}
+
+/// Which pixels may show shadow and have not been looked at, tile by tile.
+class OpenTiles {
  public:
-  explicit CandidateTiles(const ShadowInView& shadow)
-      : first_column_(shadow.columns.first / kSide),
-        first_row_(shadow.rows.first / kSide),
-        columns_(shadow.columns.last / kSide - first_column_ + 1),
-        rows_(shadow.rows.last / kSide - first_row_ + 1),
-        is_candidate_(std::size_t(columns_) * std::size_t(rows_)) {
+  explicit OpenTiles(const ShadowInView& shadow)
+      : first_{std::uint16_t(shadow.columns.first / kSide),
+               std::uint16_t(shadow.rows.first / kSide)},
+        last_{std::uint16_t(shadow.columns.last / kSide), std::uint16_t(shadow.rows.last / kSide)},
+        columns_(std::size_t(last_.column - first_.column) + 1),
+        pixels_(columns_ * (std::size_t(last_.row - first_.row) + 1)) {
     ViewCover cover(shadow.columns, shadow.rows);
     for (const FacePolygon& face : shadow.faces) cover.draw_possible(face);
     std::array<PixelTile, 32> room;
     for (std::size_t block = 0; block < cover.block_count(); ++block) {
-      for (const PixelTile tile : cover.tiles(block, room)) {
-        is_candidate_[index(tile.column, tile.row)] = 1;
-      }
+      for (const PixelTile tile : cover.tiles(block, room)) at(tile) = cover.possible(block, tile);
     }
   }
 
-  int first_column() const { return first_column_; }
-  int first_row() const { return first_row_; }
-  int last_column() const { return first_column_ + columns_ - 1; }
-  int last_row() const { return first_row_ + rows_ - 1; }
-
-  /// Moves a tile from the list of candidates to `tiles`, if it is one.
-  void take(int column, int row, std::vector<PixelTile>& tiles) {
-    char& candidate = is_candidate_[index(column, row)];
-    if (candidate != 0) tiles.push_back({std::uint16_t(column), std::uint16_t(row)});
-    candidate = 0;
+  PixelTile first() const { return first_; }
+  PixelTile last() const { return last_; }
+  std::uint16_t& at(PixelTile tile) {
+    return pixels_[std::size_t(tile.row - first_.row) * columns_ +
+                   std::size_t(tile.column - first_.column)];
   }
 
  private:
-  std::size_t index(int column, int row) const {
-    return std::size_t(row - first_row_) * std::size_t(columns_) +
-           std::size_t(column - first_column_);
-  }
-
-  int first_column_, first_row_, columns_, rows_;
-  std::vector<char> is_candidate_;
+  PixelTile first_, last_;
+  std::size_t columns_;
+  std::vector<std::uint16_t> pixels_;
 };
 
-/// Traces tiles from the borders inwards.
+/// Traces tiles from the borders inwards, as long as they may widen the bounds.
 class BorderScan {
  public:
   BorderScan(const PlanningScene& scene, const PinholeCamera& view, const ShadowInView& shadow)
       : scene_(scene),
         view_(view),
-        tiles_(shadow),
+        open_(shadow),
         bounds_{view.intrinsics().width, -1, view.intrinsics().height, -1} {}
 
   std::optional<ShadowBounds> find() {
-    int top = tiles_.first_row();
-    while (top <= tiles_.last_row() && bounds_.right < 0) trace_row(top++);
+    const PixelTile first = open_.first(), last = open_.last();
+    for (int row = first.row; row <= last.row && kSide * row < bounds_.top; ++row) {
+      trace_row(row, [&](const ShadowBounds& b) { return b.top < bounds_.top; });
+    }
     if (bounds_.right < 0) return std::nullopt;
-    // Tiles that can only lie further in than a pixel that is known need not be looked at.
-    for (int row = tiles_.last_row(); kSide * row + kSide - 1 > bounds_.bottom; --row)
-      trace_row(row);
-    for (int c = tiles_.first_column(); kSide * c < bounds_.left; ++c) trace_column(c);
-    for (int c = tiles_.last_column(); kSide * c + kSide - 1 > bounds_.right; --c) trace_column(c);
+    for (int row = last.row; kSide * row + kSide - 1 > bounds_.bottom; --row) {
+      trace_row(row, [&](const ShadowBounds& b) { return b.bottom > bounds_.bottom; });
+    }
+    for (int column = first.column; kSide * column < bounds_.left; ++column) {
+      trace_column(column, [&](const ShadowBounds& b) { return b.left < bounds_.left; });
+    }
+    for (int column = last.column; kSide * column + kSide - 1 > bounds_.right; --column) {
+      trace_column(column, [&](const ShadowBounds& b) { return b.right > bounds_.right; });
+    }
     return bounds_;
   }
 
  private:
-  void trace_row(int row) {
-    for (int c = tiles_.first_column(); c <= tiles_.last_column(); ++c) tiles_.take(c, row, line_);
-    trace_line();
-  }
-  void trace_column(int column) {
-    for (int r = bounds_.top / kSide; r <= bounds_.bottom / kSide; ++r) {
-      tiles_.take(column, r, line_);
+  template <class MayWiden>
+  void trace_row(int row, const MayWiden& may_widen) {
+    for (int column = open_.first().column; column <= open_.last().column; ++column) {
+      add({std::uint16_t(column), std::uint16_t(row)}, may_widen);
     }
-    trace_line();
+    trace_batch();
+  }
+  template <class MayWiden>
+  void trace_column(int column, const MayWiden& may_widen) {
+    for (int row = bounds_.top / kSide; row <= bounds_.bottom / kSide; ++row) {
+      add({std::uint16_t(column), std::uint16_t(row)}, may_widen);
+    }
+    trace_batch();
+  }
+  template <class MayWiden>
+  void add(PixelTile tile, const MayWiden& may_widen) {
+    std::uint16_t& pixels = open_.at(tile);
+    if (pixels == 0 || !may_widen(bounds_of(tile, pixels))) return;
+    pixels = 0;
+    batch_[batch_size_++] = tile;
+    if (batch_size_ == kBatchTiles) trace_batch();
   }
 
-  void trace_line() {
-    hits_.resize(line_.size());
-    scene_.surfaces().first_hits(view_, line_, hits_);
-    for (std::size_t i = 0; i < line_.size(); ++i) {
-      add(line_[i], shadow_pixels(view_.intrinsics(), view_.range(), scene_.shadow_object(),
-                                  line_[i], hits_[i]));
+  void trace_batch() {
+    const std::span<const PixelTile> tiles(batch_.data(), batch_size_);
+    scene_.surfaces().first_hits(view_, tiles, std::span(hits_.data(), batch_size_));
+    for (std::size_t i = 0; i < batch_size_; ++i) {
+      const unsigned shown = shadow_pixels(view_.intrinsics(), view_.range(),
+                                           scene_.shadow_object(), tiles[i], hits_[i]);
+      if (shown == 0) continue;
+      const ShadowBounds b = bounds_of(tiles[i], shown);
+      bounds_ = {std::min(bounds_.left, b.left), std::max(bounds_.right, b.right),
+                 std::min(bounds_.top, b.top), std::max(bounds_.bottom, b.bottom)};
     }
-    line_.clear();
-  }
-
-  void add(PixelTile tile, std::uint16_t shown) {
-    if (shown == 0) return;
-    const unsigned columns = (shown | shown >> 4 | shown >> 8 | shown >> 12) & 0xF;
-    const int u = kSide * tile.column, v = kSide * tile.row;
-    bounds_.left = std::min(bounds_.left, u + std::countr_zero(columns));
-    bounds_.right = std::max(bounds_.right, u + int(std::bit_width(columns)) - 1);
-    bounds_.top = std::min(bounds_.top, v + std::countr_zero(shown) / kSide);
-    bounds_.bottom = std::max(bounds_.bottom, v + (int(std::bit_width(shown)) - 1) / kSide);
+    batch_size_ = 0;
   }
 
   const PlanningScene& scene_;
   const PinholeCamera& view_;
-  CandidateTiles tiles_;
+  OpenTiles open_;
   ShadowBounds bounds_;
-  std::vector<PixelTile> line_;
-  std::vector<TileHits> hits_;
+  std::array<PixelTile, kBatchTiles> batch_;
+  std::array<TileHits, kBatchTiles> hits_;
+  std::size_t batch_size_ = 0;
 };
 
 }  // namespace

@@ -186,13 +186,13 @@ void draw_polygon(const FacePolygon& p, const WeightBound& w, int origin_chunk, 
     const int row = group * kRows;
     find_spans<&PolygonEdge::outer>(p, p.rows, row, outer);
     find_spans<&PolygonEdge::inner>(p, p.certain_rows, row, inner);
-    CoverBlock* block_row = blocks + (group - origin_group) * chunks - origin_chunk;
+    const int block_row = (group - origin_group) * chunks - origin_chunk;
     find_node(drawing, row, reach.first_chunk * kColumns, nodes[reach.first_chunk & 1]);
     for (int chunk = reach.first_chunk; chunk <= reach.last_chunk; ++chunk) {
       const Node& left = nodes[chunk & 1];
       Node& right = nodes[(chunk + 1) & 1];
       find_node(drawing, row, (chunk + 1) * kColumns, right);
-      draw_block(drawing, outer, inner, left, right, chunk * kColumns, block_row[chunk]);
+      draw_block(drawing, outer, inner, left, right, chunk * kColumns, blocks[block_row + chunk]);
     }
   }
 }
@@ -205,9 +205,9 @@ void draw_outline(const FacePolygon& p, int origin_chunk, int origin_group, int 
   Lanes<std::int32_t> begin, end;
   for (int group = reach.first_group; group <= reach.last_group; ++group) {
     find_spans<&PolygonEdge::outer>(p, p.rows, group * kRows, outer);
-    CoverBlock* block_row = blocks + (group - origin_group) * chunks - origin_chunk;
+    const int block_row = (group - origin_group) * chunks - origin_chunk;
     for (int chunk = reach.first_chunk; chunk <= reach.last_chunk; ++chunk) {
-      std::uint32_t* possible = block_row[chunk].possible;
+      std::uint32_t* possible = blocks[block_row + chunk].possible;
       VANTAGE_EACH_ROW(i) {
         begin.at[i] = within_block(outer.begin.at[i], chunk * kColumns);
         end.at[i] = within_block(outer.end.at[i], chunk * kColumns);
@@ -245,6 +245,15 @@ Score ViewCover::bound(std::size_t block) const {
   double sum = 0;
   for (const float row : blocks_[block].bound) sum += double(row);
   return sum > 0 ? Score(sum * kRounding) + kRows * kColumns : 0;
+}
+
+std::uint16_t ViewCover::possible(std::size_t block, PixelTile tile) const {
+  constexpr int kSide = PixelTile::kSide;
+  const std::uint32_t* rows = blocks_[block].possible + tile.row * kSide % kRows;
+  const int shift = tile.column * kSide % kColumns;
+  unsigned bits = 0;
+  for (int i = 0; i < kSide; ++i) bits |= (rows[i] >> shift & 0xFu) << (kSide * i);
+  return std::uint16_t(bits);
 }
 
 std::span<const PixelTile> ViewCover::tiles(std::size_t block,
