@@ -15,6 +15,9 @@ namespace {
 constexpr int kPixels = PixelTile::kPixels, kSide = PixelTile::kSide;
 constexpr double kMaxPower = 16;
 
+// "GCC unroll 1" before the loops over a tile's pixels: unrolled before the vectoriser comes to see
+// them, they would stay scalar.
+
 /// What decides whether a pixel counts.
 struct Counted {
   int width, height;
@@ -34,6 +37,7 @@ struct Counted {
 /// but are not the shadow.
 [[gnu::always_inline]] inline void mask_of(const Counted& c, PixelTile tile, const TileHits& hits,
                                            std::int32_t* mask) {
+#pragma GCC unroll 1
   for (int i = 0; i < kPixels; ++i) {
     const int u = kSide * tile.column + i % kSide, v = kSide * tile.row + i / kSide;
     mask[i] = -std::int32_t((u < c.width) & (v < c.height) & (hits.object[i] == c.shadow) &
@@ -43,6 +47,7 @@ struct Counted {
 
 [[gnu::always_inline]] inline void part_of_far(const Counted& c, const TileHits& hits,
                                                double* part) {
+#pragma GCC unroll 1
   for (int i = 0; i < kPixels; ++i) {
     const double d = double(hits.t[i]) * c.per_far;
     part[i] = d < 1 ? d : 1;
@@ -54,6 +59,7 @@ struct Counted {
 [[gnu::always_inline]] inline Score rounded_sum(const double* weights, const std::int32_t* mask) {
   constexpr double kIntegers = 0x1p52;
   Score sum = 0;
+#pragma GCC unroll 1
   for (int i = 0; i < kPixels; ++i) {
     const Score rounded = std::bit_cast<Score>(weights[i] * DepthWeight::kOne + kIntegers) -
                           std::bit_cast<Score>(kIntegers);
@@ -71,8 +77,10 @@ Score sum_whole_power(const Counted& c, int power, const PixelTile* tiles, const
     alignas(64) double part[kPixels], weight[kPixels];
     mask_of(c, tiles[tile], hits[tile], mask);
     part_of_far(c, hits[tile], part);
+#pragma GCC unroll 1
     for (int i = 0; i < kPixels; ++i) weight[i] = 1;
     for (int factor = 0; factor < power; ++factor) {
+#pragma GCC unroll 1
       for (int i = 0; i < kPixels; ++i) weight[i] *= part[i];
     }
     sum += rounded_sum(weight, mask);
@@ -88,6 +96,7 @@ Score sum_any_power(const Counted& c, double power, const PixelTile* tiles, cons
     double weight[kPixels];
     mask_of(c, tiles[tile], hits[tile], mask);
     part_of_far(c, hits[tile], weight);
+#pragma GCC unroll 1
     for (int i = 0; i < kPixels; ++i) weight[i] = mask[i] != 0 ? std::pow(weight[i], power) : 0;
     sum += rounded_sum(weight, mask);
   }
@@ -128,6 +137,7 @@ std::uint16_t shadow_pixels(const Intrinsics& image, const DepthRange& range, Ob
   std::int32_t mask[kPixels];
   mask_of(Counted(image, range, shadow), tile, hits, mask);
   unsigned bits = 0;
+#pragma GCC unroll 1
   for (int i = 0; i < kPixels; ++i) bits |= unsigned(mask[i] & 1) << i;
   return std::uint16_t(bits);
 }

@@ -17,6 +17,9 @@ namespace vantage {
 namespace detail {
 namespace {
 
+// "GCC unroll 1" before the loops over a packet's lanes: unrolled before the vectoriser comes to
+// see them, they would stay scalar, and cost as much as a traversal.
+
 constexpr int kSide = PixelTile::kSide;
 static_assert(PixelTile::kPixels == int(kPacketWidth));
 
@@ -24,6 +27,7 @@ static_assert(PixelTile::kPixels == int(kPacketWidth));
 [[gnu::always_inline]] inline void fill_directions(const Intrinsics& k, const PixelRotation& R,
                                                    PixelTile tile, RTCRay16& rays) {
   double across[kSide], down[kSide];
+#pragma GCC unroll 1
   for (int i = 0; i < kSide; ++i) {
     across[i] = (kSide * tile.column + i - k.cx) / k.fx;
     down[i] = (kSide * tile.row + i - k.cy) / k.fy;
@@ -33,12 +37,16 @@ static_assert(PixelTile::kPixels == int(kPacketWidth));
     for (int i = 0; i < kSide; ++i) x[kSide * row + i] = across[i];
     for (int i = 0; i < kSide; ++i) y[kSide * row + i] = down[row];
   }
+#pragma GCC unroll 1
   for (std::size_t i = 0; i < kPacketWidth; ++i) rays.dir_x[i] = float(R.turned<0>(x[i], y[i]));
+#pragma GCC unroll 1
   for (std::size_t i = 0; i < kPacketWidth; ++i) rays.dir_y[i] = float(R.turned<1>(x[i], y[i]));
+#pragma GCC unroll 1
   for (std::size_t i = 0; i < kPacketWidth; ++i) rays.dir_z[i] = float(R.turned<2>(x[i], y[i]));
 }
 
 [[gnu::always_inline]] inline void store(const RTCRayHit16& packet, TileHits& hits) {
+#pragma GCC unroll 1
   for (std::size_t i = 0; i < kPacketWidth; ++i) {
     const unsigned geometry = packet.hit.geomID[i], instance = packet.hit.instID[0][i];
     const float t = packet.ray.tfar[i];
@@ -64,6 +72,7 @@ void trace_tiles(const PacketJob& job, const Intrinsics& k, const PixelRotation&
   }
   for (std::size_t tile = 0; tile < count; ++tile) {
     fill_directions(k, R, tiles[tile], packet.ray);
+#pragma GCC unroll 1
     for (std::size_t i = 0; i < kPacketWidth; ++i) {
       packet.ray.tfar[i] = job.t_far;
       packet.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
