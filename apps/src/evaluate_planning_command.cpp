@@ -89,6 +89,7 @@ Json config_json(const PlanningArguments& arguments, const PlanningSettings& set
       {"depth", arguments.depth},
       {"seed", arguments.seed},
       {"candidates", settings.sets},
+      {"radii_m", settings.radii_m.empty() ? Json() : Json(settings.radii_m)},
       {"servo",
        {{"iterations", settings.servo.iterations}, {"image_width", settings.servo.image_width}}},
       {"voxel_size_m", settings.voxel_size_m ? Json(*settings.voxel_size_m) : Json()}};
@@ -190,6 +191,12 @@ void add_method_options(CLI::App& verb, PlanningArguments& arguments) {
       ->delimiter(',')
       ->check(CLI::IsMember({"full", "production"}))
       ->capture_default_str();
+  verb.add_option("--radii", arguments.settings.radii_m,
+                  "Radii of the full set's three half-spheres, metres, e.g. 0.5,0.7,0.9; the "
+                  "production set has the first and the last (default: from the work area)")
+      ->delimiter(',')
+      ->expected(3)
+      ->check(CLI::PositiveNumber);
   verb.add_option("--servo", arguments.settings.servo.iterations, "Servo iterations; 0: none")
       ->check(CLI::Range(0, 100))
       ->capture_default_str();

@@ -23,8 +23,13 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-HalfSpheres set_named(const std::string& name, const Box& work_area) {
-  HalfSpheres set = name == "full" ? full_views() : production_views();
+HalfSpheres set_named(const std::string& name, const Box& work_area,
+                      const std::vector<double>& radii_m) {
+  const bool full = name == "full";
+  HalfSpheres set = full ? full_views() : production_views();
+  if (!radii_m.empty()) {
+    set.radii_m = full ? radii_m : std::vector{radii_m.front(), radii_m.back()};
+  }
   // Written out, so that the report can say what they are.
   if (set.radii_m.empty()) {
     set.radii_m = default_radii_m(work_area, int(std::max<std::size_t>(2, set.counts.size())));
@@ -75,7 +80,7 @@ class SceneRun {
   }
 
   SetEvaluation run_set(const std::string& name, EvaluatedScene& result) {
-    const HalfSpheres views = set_named(name, request_.work_area);
+    const HalfSpheres views = set_named(name, request_.work_area, settings_.radii_m);
     request_.candidates = views;
     SetEvaluation set{.set = name, .radii_m = views.radii_m};
     find_best_true_gain(set);

@@ -25,6 +25,8 @@ NamedMethod named_method(const std::string& name);
 struct PlanningSettings {
   std::vector<NamedMethod> methods;  ///< the first is `voxel`
   std::vector<std::string> sets;     ///< "full" first, "production"
+  std::vector<double> radii_m{};     ///< of the full set's three half-spheres; the production set
+                                     ///< has the first and the last. Empty: from the work area
   ServoOptions servo = {};
   std::optional<double> voxel_size_m{};  ///< none: the workcell's
   int repeat = 1;                        ///< times that everything is timed
