@@ -143,16 +143,19 @@ TEST_CASE("what a value says of itself decides which keys it may have") {
 
 TEST_CASE("the plan's schema takes what a plan has and nothing else") {
   const json plan = json::parse(R"({
-    "vantage": "0.1.0", "method": "voxel", "partial": false,
+    "vantage": "0.1.0", "method": "voxel", "score_unit": "m³", "partial": false,
+    "finished_candidates": 2,
     "camera": {"width": 640, "height": 480, "fx": 525.0, "fy": 525.0, "cx": 319.5, "cy": 239.5,
                "near_m": 0.1, "far_m": 3.0},
     "best": {"id": 17, "T_world_cam": {"rotation": {"w": 1, "x": 0, "y": 0, "z": 0},
              "translation_m": [0, 0, 0]}, "score": 0.000943, "newly_observed_volume_m3": 0.000943,
-             "servo_iteration": 2},
+             "servo_iteration": 2, "servo_trace": []},
+    "views": [], "ranked": [], "rejections": {"out of reach": 1}, "explanations": [],
     "candidates": [
-      {"id": 17, "score": 0.0, "newly_observed_volume_m3": 0.0, "feasible": true, "rejected": null},
-      {"id": 18, "score": null, "newly_observed_volume_m3": null, "feasible": false,
-       "rejected": "out of reach"}],
+      {"id": 17, "score": 0.0, "score_at_most": 0.0, "newly_observed_volume_m3": 0.0,
+       "servo_iteration": 2, "feasible": true, "rejected": null},
+      {"id": 18, "score": null, "score_at_most": null, "newly_observed_volume_m3": null,
+       "servo_iteration": null, "feasible": false, "rejected": "out of reach"}],
     "volumes_m3": {"work_area": 0.0, "occupied": 0.0, "free": 0.0, "shadow": 0.0,
                    "shadow_hidden": 0.0, "shadow_unseen": 0.0},
     "anti_alias": {"applied": false, "volume_m3": 0.0},
