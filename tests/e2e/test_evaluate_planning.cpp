@@ -15,7 +15,7 @@ using test::run_vantage;
 namespace fs = std::filesystem;
 
 std::string scene(const char* cell, const char* rest) {
-  return quoted((test::workcells() / (std::string(cell) + ".yaml")).string() + rest);
+  return test::quoted((test::workcells() / (std::string(cell) + ".yaml")).string() + rest);
 }
 
 const json& of_method(const json& list, const std::string& method) {
