@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "plan_request.hpp"
+#include "recognisable_objects.hpp"
 #include "simulated_cell.hpp"
 #include "simulator/depth_sensor.hpp"
 #include "simulator/sample_hash.hpp"
@@ -73,7 +74,10 @@ StereoSensor sensor_of(DepthKind kind, const Workcell& workcell) {
 
 WorldModel world_of(const Workcell& workcell, const SimulatedScene& scene,
                     const std::vector<std::size_t>& cameras, DepthKind kind, std::uint64_t seed) {
-  WorldModel world{known(workcell.known_objects), known(workcell.static_structures), {}};
+  std::vector<PinholeCamera> views;
+  for (const std::size_t i : cameras) views.push_back(workcell.cameras[i].camera);
+  const auto found = recognisable_objects(workcell.known_objects, views, scene.rays());
+  WorldModel world{known(found), known(workcell.static_structures), {}};
   for (const std::size_t i : cameras) {
     const CellCamera& camera = workcell.cameras[i];
     std::shared_ptr<const DepthImage> depth;

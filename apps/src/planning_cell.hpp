@@ -37,7 +37,7 @@ PlanningCellName planning_cell_name(const std::string& argument);
 struct PlanningCell {
   std::string name;  ///< the workcell's file without its ending, and the cameras, e.g. "wall:side"
   std::string depth;
-  WorldModel world;  ///< known objects at their true poses
+  WorldModel world;  ///< what the cameras could recognise, at its true pose
   PlanRequest request;
   SimulatedScene scene;
   std::vector<std::filesystem::path> files;  ///< that were read
