@@ -14,6 +14,7 @@
 #include "progress_line.hpp"
 #include "vantage/raycore/file.hpp"
 #include "version.hpp"
+#include "volume_settings.hpp"
 #include "workers.hpp"
 
 namespace vantage {
@@ -29,7 +30,7 @@ struct PlanningArguments {
   fs::path folder;
   std::vector<std::string> methods{"voxel", "shadowD0", "shadowD3", "shadowD6", "light"};
   std::vector<std::string> sets{"full", "production"};
-  std::string depth = "none";
+  std::string depth = "none", occluders;
   std::uint64_t seed = 0;
   PlanningSettings settings;
   bool no_pictures = false, json = false;
@@ -48,6 +49,7 @@ PlanningSettings settings_of(const PlanningArguments& arguments) {
   PlanningSettings settings = arguments.settings;
   choose(arguments.methods, arguments.sets, settings);
   settings.servo.check();
+  if (!arguments.occluders.empty()) settings.occluders = occluder_mode_of(arguments.occluders);
   const bool drawn = !arguments.folder.empty() && !arguments.no_pictures;
   settings.picture_width = drawn ? kPictureWidth : 0;
   return settings;
@@ -203,6 +205,10 @@ void add_method_options(CLI::App& verb, PlanningArguments& arguments) {
   verb.add_option("--voxel-size", arguments.settings.voxel_size_m,
                   "Edge of a voxel, metres (default: the workcell's, else 0.009375)")
       ->check(CLI::PositiveNumber);
+  verb.add_option("--occluders", arguments.occluders,
+                  "What hides: the known objects' exact meshes, or as in the thesis their voxels, "
+                  "with anti-aliasing (default: the workcell's)")
+      ->check(CLI::IsMember({"mesh", "voxels"}));
   verb.add_option("--repeat", arguments.settings.repeat,
                   "Time everything so often; run times are medians")
       ->check(CLI::Range(1, 1000))

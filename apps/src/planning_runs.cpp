@@ -44,6 +44,10 @@ class SceneRun {
       : cell_(cell), settings_(settings), stop_(stop), request_(cell.request) {
     if (settings.voxel_size_m) request_.voxel_size_m = *settings.voxel_size_m;
     request_.servo = settings.servo;
+    if (settings.occluders) {
+      request_.volume.occluders = *settings.occluders;
+      request_.volume.anti_alias.reset();  // as goes with it
+    }
   }
 
   EvaluatedScene run() {

@@ -28,9 +28,10 @@ struct PlanningSettings {
   std::vector<double> radii_m{};     ///< of the full set's three half-spheres; the production set
                                      ///< has the first and the last. Empty: from the work area
   ServoOptions servo = {};
-  std::optional<double> voxel_size_m{};  ///< none: the workcell's
-  int repeat = 1;                        ///< times that everything is timed
-  int picture_width = 0;                 ///< of the overviews; 0: none
+  std::optional<double> voxel_size_m{};     ///< none: the workcell's
+  std::optional<OccluderMode> occluders{};  ///< none: the workcell's, as is anti-aliasing then
+  int repeat = 1;                           ///< times that everything is timed
+  int picture_width = 0;                    ///< of the overviews; 0: none
 };
 
 /// Puts the methods and sets in order; `voxel` is always among them, because it is the measure.
