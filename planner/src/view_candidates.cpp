@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Geometry>
 #include <cmath>
 #include <numbers>
 #include <numeric>
@@ -14,6 +15,7 @@ namespace vantage {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
+constexpr double kGoldenAngle = kPi * (3 - 2.2360679774997896964);  // √5
 constexpr int kMostDirections = 1'000'000;
 constexpr std::int64_t kMostViews = 4'000'000;
 constexpr int kMostRings = 50;
@@ -71,8 +73,10 @@ std::vector<ViewCandidate> views_of(const HalfSpheres& given, const Box& work_ar
   const Eigen::Vector3d centre = work_area.centre();
   std::vector<ViewCandidate> views;
   for (std::size_t i = 0; i < set.radii_m.size(); ++i) {
+    // Turned against each other, so that half-spheres of one count do not repeat their directions.
+    const Eigen::AngleAxisd turn(double(i) * kGoldenAngle, Eigen::Vector3d::UnitZ());
     for (const Eigen::Vector3d& direction : half_sphere_directions(set.counts[i])) {
-      detail::add_fan(centre + set.radii_m[i] * direction, centre, set.fan, views);
+      detail::add_fan(centre + set.radii_m[i] * (turn * direction), centre, set.fan, views);
     }
   }
   return views;
