@@ -23,8 +23,8 @@ struct ViewFan {
   double step_rad = 0.17453292519943295;  ///< 10°
 };
 
-/// Positions on half-spheres around the work area's centre (thesis 7.2.1), each half-sphere turned by
-/// the golden angle against the one before.
+/// Positions on half-spheres around the work area's centre (thesis 7.2.1), each half-sphere turned
+/// by the golden angle against the one before.
 struct HalfSpheres {
   std::vector<double> radii_m = {};  ///< empty: `default_radii_m`, two of them, or one per count
   std::vector<int> counts = {20};  ///< positions: one number for all half-spheres, or one for each

@@ -66,8 +66,8 @@ class VANTAGE_API StateGrid {
   std::shared_ptr<const StateGrid> with_revealed(std::span<const std::uint8_t> seen) const;
 
   /// The faces between the voxels of a state and all others, world frame, outwards; coplanar
-  /// neighbours are merged into rectangles: triangles 2 r and 2 r + 1 are (a, b, c) and (a, c, d) of
-  /// the r-th rectangle's corners a, b, c, d.
+  /// neighbours are merged into rectangles: triangles 2 r and 2 r + 1 are (a, b, c) and (a, c, d)
+  /// of the r-th rectangle's corners a, b, c, d.
   TriangleMesh faces(VoxelState state) const;
 
   /// The same for the measured part of the occupied voxels.
