@@ -25,7 +25,7 @@ Json plan_to_json(const Plan& plan, const ShadowRegions* regions,
                   const std::vector<ViewExplanation>& explained, const PlanRecord& record) {
   return {{"vantage", kVersion},
           {"method", plan.request.method.name},
-          {"score_unit", plan.score_unit_name},
+          {"score_unit", plan.score_unit_name.empty() ? Json() : Json(plan.score_unit_name)},
           {"partial", plan.stopped != StopReason::none},
           {"finished_candidates", plan.finished},
           {"camera", camera_json(plan.request)},

@@ -29,6 +29,8 @@ void check(const PlanRequest& request) {
 
 void search(const WorldModel& world, const std::vector<ViewCandidate>& views, Plan& plan,
             const StopToken& stop) {
+  plan.stopped = stop.reason();
+  if (plan.stopped != StopReason::none) return;
   const detail::PlanningTools tools(world, plan.classified, plan.request);
   plan.score_unit = tools.scorer()->unit();
   plan.score_unit_name = tools.scorer()->unit_name();
