@@ -29,9 +29,12 @@ void check(const PlanRequest& request) {
 
 void search(const WorldModel& world, const std::vector<ViewCandidate>& views, Plan& plan,
             const StopToken& stop) {
-  plan.stopped = stop.reason();
-  if (plan.stopped != StopReason::none) return;
-  const detail::PlanningTools tools(world, plan.classified, plan.request);
+  // Of fine grids, the shadow's surface and its points take a while each.
+  const auto stopped = [&] { return (plan.stopped = stop.reason()) != StopReason::none; };
+  if (stopped()) return;
+  const PlanningScene scene(world, plan.classified, plan.request.volume.occluders);
+  if (stopped()) return;
+  const detail::PlanningTools tools(world, scene, plan.request);
   plan.score_unit = tools.scorer()->unit();
   plan.score_unit_name = tools.scorer()->unit_name();
   SearchResult found = tools.search().run(views, stop);

@@ -14,13 +14,12 @@ std::shared_ptr<const ShadowView> shadow_view(const std::shared_ptr<const ViewSc
 
 }  // namespace
 
-PlanningTools::PlanningTools(const WorldModel& world, std::shared_ptr<const StateGrid> grid,
+PlanningTools::PlanningTools(const WorldModel& world, const PlanningScene& scene,
                              const PlanRequest& request)
     : options_(request.search),
       tools_{nullptr, nullptr, nullptr,
              PinholeCamera(request.intrinsics, Pose(), request.range, "movable camera"),
              Utility(request.search.travel)} {
-  const PlanningScene scene(world, std::move(grid), request.volume.occluders);
   tools_.scorer = make_view_scorer(request.method, scene, world, request.range);
   tools_.checker = std::make_shared<const ViewChecker>(request.constraints, scene, request.range);
   voxels_ = std::dynamic_pointer_cast<const VoxelScorer>(tools_.scorer);

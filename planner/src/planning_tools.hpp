@@ -13,7 +13,12 @@ class PlanningTools {
  public:
   /// @throws Error as `plan_next_view` does, but for the candidates.
   PlanningTools(const WorldModel& world, std::shared_ptr<const StateGrid> grid,
-                const PlanRequest& request);
+                const PlanRequest& request)
+      : PlanningTools(world, PlanningScene(world, std::move(grid), request.volume.occluders),
+                      request) {}
+
+  /// @param scene made from `world`.
+  PlanningTools(const WorldModel& world, const PlanningScene& scene, const PlanRequest& request);
 
   const std::shared_ptr<const ViewScorer>& scorer() const { return tools_.scorer; }
   const VoxelScorer& voxels() const { return *voxels_; }

@@ -203,10 +203,11 @@ TEST_CASE("Ctrl-C gives exit code 130 and the partial plan") {
   const std::string out = (folder / "out").string();
   const auto result = run_vantage(
       "plan '" + test::write_scene(folder).string() +
-          "' --work-area -0.5 -0.5 0.01 0.5 0.5 0.5 --voxel-size 0.001 -o '" + out + "'",
+          "' --work-area -0.5 -0.5 0.01 0.5 0.5 0.5 --voxel-size 0.002 -o '" + out + "'",
       "timeout --foreground --preserve-status -s INT 2");
   CHECK(result.exit_code == 130);
-  CHECK(result.out.find("stopped before") == 0);
+  const bool before_any = result.out.find("stopped before") == 0;
+  CHECK((before_any || result.out.find("\npartial ") != std::string::npos));
   const auto plan = nlohmann::json::parse(test::read_text(folder / "out/plan.json"));
   CHECK(plan["partial"] == true);
 }
