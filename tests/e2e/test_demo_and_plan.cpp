@@ -228,7 +228,8 @@ TEST_CASE("with nothing in reach: exit code 4, and every candidate says why") {
     CHECK(candidate["rejected"] == "out of reach");
   }
   const auto text = run_vantage("plan '" + scene.string() + "' --workcell '" + cell.string() + "'");
-  CHECK(text.out.find("no feasible view: every candidate was rejected\nrejected   40 out of reach\n") == 0);
+  CHECK(text.out.find(
+            "no feasible view: every candidate was rejected\nrejected   40 out of reach\n") == 0);
 }
 
 TEST_CASE("a real Kinect recording: the suggested camera looks at the back of what stands there") {
