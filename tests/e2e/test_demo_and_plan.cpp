@@ -212,6 +212,43 @@ TEST_CASE("Ctrl-C gives exit code 130 and the partial plan") {
   CHECK(plan["partial"] == true);
 }
 
+TEST_CASE("methods, further views and explanations, by the command line") {
+  const test::TemporaryFolder folder;
+  const std::string plan = "plan '" + test::write_scene(folder).string() + "'" + test::kSceneArea;
+  const auto result = run_vantage(
+      plan + " --method shadow --depth-power 3 --servo 2 --views 3 --explain 7,0 --json");
+  CAPTURE(result.err);
+  REQUIRE(result.exit_code == 0);
+  const nlohmann::json json = result.json();
+  CHECK_NOTHROW(check_schema({"plan.json", json}, plan_schema()));
+  CHECK(json["method"] == "shadow");
+  CHECK(json["config"]["depth_power"] == 3);
+  CHECK(json["ranked"].size() == 10);
+  CHECK(json["ranked"][0]["id"] == json["best"]["id"]);
+  CHECK(json["views"][0]["T_world_cam"] == json["best"]["T_world_cam"]);
+  CHECK(json["views"].size() <= 3);
+  CHECK(json["best"]["servo_trace"].size() <= 3);
+  REQUIRE(json["explanations"].size() == 2);
+  const nlohmann::json& explained = json["explanations"][0];
+  CHECK(explained["id"] == 7);
+  double revealed_m3 = 0;
+  for (const auto& region : explained["regions"]) {
+    revealed_m3 += region["revealed_m3"].get<double>();
+  }
+  CHECK(revealed_m3 == doctest::Approx(explained["newly_observed_volume_m3"].get<double>()));
+
+  const auto text = run_vantage(plan + " --explain 7 --from 0.3 -0.5 0.4 --travel-weight 2");
+  CHECK(text.exit_code == 0);
+  CHECK(text.out.find("candidate 7: ") != std::string::npos);
+  CHECK(text.out.find("after the journey") != std::string::npos);
+
+  const auto unknown = run_vantage(plan + " --explain 40");
+  CHECK(unknown.exit_code == 3);
+  CHECK(unknown.err.find("found candidate 40; expected 0 to 39") != std::string::npos);
+  CHECK(run_vantage(plan + " --travel-weight 2").exit_code == 2);  // from where?
+  CHECK(run_vantage(plan + " --method depth").exit_code == 2);
+}
+
 TEST_CASE("with nothing in reach: exit code 4, and every candidate says why") {
   const test::TemporaryFolder folder;
   const fs::path scene = test::write_scene(folder);
