@@ -5,26 +5,12 @@
 #include <cmath>
 #include <limits>
 
+#include "vantage/raycore/segment_distance.hpp"
+
 namespace vantage {
 namespace {
 
 using Eigen::Vector3d;
-
-// Squared, of the segments p + s d and q + t e with s and t in 0 … 1. Ericson, "Real-time collision
-// detection", 2005, section 5.1.9: the lines' nearest points, then each of them clamped in turn.
-double squared_segment_distance(const Vector3d& p, const Vector3d& d, const Vector3d& q,
-                                const Vector3d& e) {
-  const Vector3d r = p - q;
-  const double dd = d.dot(d), ee = e.dot(e), de = d.dot(e), dr = d.dot(r), er = e.dot(r);
-  const double parallel = dd * ee - de * de;  // 0 if they are: any s does, then
-  double s = parallel > 0 ? std::clamp((de * er - dr * ee) / parallel, 0.0, 1.0) : 0.0;
-  double t = (de * s + er) / ee;
-  if (t < 0 || t > 1) {
-    t = std::clamp(t, 0.0, 1.0);
-    s = std::clamp((de * t - dr) / dd, 0.0, 1.0);
-  }
-  return (r + s * d - t * e).squaredNorm();
-}
 
 // Squared, of a point and a triangle's plane; infinite if the foot is not in the triangle, where an
 // edge is as near.

@@ -1,31 +1,17 @@
-// Ericson, "Real-Time Collision Detection", 2005: sections 5.1.5 (point and triangle), 5.1.9 (two
-// segments) and 5.2.9 (box and triangle).
+// Ericson, "Real-Time Collision Detection", 2005: sections 5.1.5 (point and triangle) and 5.2.9
+// (box and triangle).
 
 #include "triangle_distance.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>
 
+#include "vantage/raycore/segment_distance.hpp"
+
 namespace vantage::detail {
 namespace {
 
 using Eigen::Vector3d;
-
-/// Of the segments p + s d and q + t e with s and t in 0 … 1: the lines' nearest points, then each
-/// of them clamped in turn.
-double squared_segment_distance(const Vector3d& p, const Vector3d& d, const Vector3d& q,
-                                const Vector3d& e) {
-  const Vector3d r = p - q;
-  const double dd = d.dot(d), ee = e.dot(e), de = d.dot(e), dr = d.dot(r), er = e.dot(r);
-  const double parallel = dd * ee - de * de;  // 0 if they are: any s does, then
-  double s = parallel > 0 ? std::clamp((de * er - dr * ee) / parallel, 0.0, 1.0) : 0.0;
-  double t = (de * s + er) / ee;
-  if (t < 0 || t > 1) {
-    t = std::clamp(t, 0.0, 1.0);
-    s = std::clamp((de * t - dr) / dd, 0.0, 1.0);
-  }
-  return (r + s * d - t * e).squaredNorm();
-}
 
 /// Separating axes: the box's three, the triangle's normal, the nine cross products of edges.
 bool apart(const Vector3d& half, const TriangleCorners& corners) {
