@@ -1,0 +1,38 @@
+#pragma once
+
+#include <memory>
+#include <span>
+
+#include "vantage/raycore/api.hpp"
+#include "vantage/raycore/depth_lattice.hpp"
+#include "vantage/raycore/stop_token.hpp"
+#include "vantage/raycore/triangle_mesh.hpp"
+#include "vantage/raycore/world_model.hpp"
+#include "vantage/volume/grid_geometry.hpp"
+#include "vantage/volume/state_grid.hpp"
+
+namespace vantage {
+
+/// Sorts every voxel by what depth lattices saw through, and nothing else: occupied if its centre
+/// is inside an object or a static structure of `known`, as `classify` has it; free if a lattice
+/// sees its centre; shadow otherwise ("solid or shadow", thesis 7.4.3).
+///
+/// Runs in the caller's task arena; the result is the same at any number of threads.
+/// @param known its cameras play no part.
+/// @returns null if `stop` asked to stop.
+/// @throws Error bad_input as `DepthLattice::check` and `classify` do.
+VANTAGE_API std::shared_ptr<const StateGrid> carve(std::span<const DepthLattice> lattices,
+                                                   const GridGeometry& geometry,
+                                                   const WorldModel& known,
+                                                   const StopToken& stop = {});
+
+/// The surface of the grid's box less what the lattices saw through, as a closed mesh that looks
+/// outwards, to export and to view; world frame. It is where rays first meet what is unseen
+/// (`SeenSpace`) to within a voxel's diagonal; what is thinner than a voxel may be missing.
+///
+/// Runs in the caller's task arena; the result is the same at any number of threads.
+/// @throws Error bad_input as `DepthLattice::check` does.
+VANTAGE_API TriangleMesh unseen_surface(std::span<const DepthLattice> lattices,
+                                        const GridGeometry& geometry);
+
+}  // namespace vantage
