@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "image_scale.hpp"
 #include "vantage/raycore/error.hpp"
 
 namespace vantage {
@@ -17,14 +18,6 @@ constexpr double kSmall = 0.6;      // shadow that fills less than this is small
 constexpr double kWanted = 0.8;     // ... and is made to fill about this
 constexpr double kBackBy = 0.25;    // shares of the distance to the shadow
 constexpr double kCloserBy = 0.35;  // at most
-
-/// The same field of view on an image of another width.
-Intrinsics scaled(const Intrinsics& k, int width) {
-  const double su = double(width) / k.width;
-  const int height = std::max(1, int(std::lround(k.height * su)));
-  const double sv = double(height) / k.height;
-  return {width, height, k.fx * su, k.fy * sv, (k.cx + 0.5) * su - 0.5, (k.cy + 0.5) * sv - 0.5};
-}
 
 /// What the bounds say should be done.
 struct Order {
@@ -87,8 +80,8 @@ ServoRefiner::ServoRefiner(std::shared_ptr<const ShadowView> view,
                            const Eigen::Vector3d& shadow_centre, const ServoOptions& options)
     : view_(std::move(view)),
       checker_(std::move(checker)),
-      camera_((options.check(), scaled(camera.intrinsics(), options.image_width)), Pose(),
-              camera.range(), "servo camera"),
+      camera_((options.check(), detail::scaled_to(camera.intrinsics(), options.image_width)),
+              Pose(), camera.range(), "servo camera"),
       shadow_centre_(shadow_centre),
       options_(options) {}
 
@@ -96,9 +89,10 @@ std::vector<ServoStep> ServoRefiner::path(const Pose& T_world_cam) const {
   std::vector<ServoStep> steps = {{T_world_cam, ServoMove::start}};
   for (int i = 0; i < options_.iterations; ++i) {
     const PinholeCamera camera = camera_.moved_to(steps.back().T_world_cam);
-    const std::optional<ShadowBounds> bounds = view_->shadow_bounds(camera);
-    if (!bounds) break;
-    const std::optional<ServoStep> next = step(camera, *bounds);
+    const ShadowSight sight = view_->look(camera);
+    steps.back().score = sight.score;
+    if (!sight.bounds) break;
+    const std::optional<ServoStep> next = step(camera, *sight.bounds);
     if (!next || same(next->T_world_cam, steps.back().T_world_cam)) break;
     steps.push_back(*next);
   }

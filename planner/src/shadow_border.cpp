@@ -1,11 +1,10 @@
 #include "shadow_border.hpp"
 
-#include <algorithm>
 #include <array>
-#include <bit>
 #include <vector>
 
 #include "depth_weight.hpp"
+#include "tile_bounds.hpp"
 #include "view_cover.hpp"
 
 namespace vantage::detail {
@@ -15,14 +14,6 @@ constexpr int kSide = PixelTile::kSide;
 
 // Few enough that what they show spares many of those behind them, enough to be worth a call.
 constexpr std::size_t kBatchTiles = 8;
-
-/// The outermost of some pixels of a tile: bit i is pixel (i % 4, i / 4).
-ShadowBounds bounds_of(PixelTile tile, unsigned pixels) {
-  const unsigned columns = (pixels | pixels >> 4 | pixels >> 8 | pixels >> 12) & 0xF;
-  const int u = kSide * tile.column, v = kSide * tile.row;
-  return {u + std::countr_zero(columns), u + int(std::bit_width(columns)) - 1,
-          v + std::countr_zero(pixels) / kSide, v + (int(std::bit_width(pixels)) - 1) / kSide};
-}
 
 /// Which pixels may show shadow and have not been looked at, tile by tile.
 class OpenTiles {
@@ -112,9 +103,7 @@ class BorderScan {
       const unsigned shown = shadow_pixels(view_.intrinsics(), view_.range(),
                                            scene_.shadow_object(), tiles[i], hits_[i]);
       if (shown == 0) continue;
-      const ShadowBounds b = bounds_of(tiles[i], shown);
-      bounds_ = {std::min(bounds_.left, b.left), std::max(bounds_.right, b.right),
-                 std::min(bounds_.top, b.top), std::max(bounds_.bottom, b.bottom)};
+      bounds_ = joined(bounds_, bounds_of(tiles[i], shown));
     }
     batch_size_ = 0;
   }

@@ -32,12 +32,10 @@ void Site::prepare(const StopToken& stop) {
     int iteration = 0;
     for (const ServoStep& step : tools_->path(pose)) {
       const PinholeCamera view = tools_->camera.moved_to(step.T_world_cam);
-      const Score bound = tools_->scorer->upper_bound(view);
-      steps_.push_back({c,
-                        iteration++,
-                        view,
-                        tools_->utility.share(view.centre()),
-                        {ScoreBound::Known::at_most, bound}});
+      const ScoreBound bound =
+          step.score ? ScoreBound{ScoreBound::Known::exact, *step.score}
+                     : ScoreBound{ScoreBound::Known::at_most, tools_->scorer->upper_bound(view)};
+      steps_.push_back({c, iteration++, view, tools_->utility.share(view.centre()), bound});
       bound_ = std::max(bound_, steps_.back().utility());
     }
   }
@@ -76,7 +74,7 @@ void Site::score_group(std::span<Step* const> group, const Ranking& ranking,
   std::vector<Score> needs;
   for (Step* step : group) {
     const Score need = needed(*step, ranking);
-    if (step->score.score < need) continue;
+    if (step->score.exact() || step->score.score < need) continue;
     open.push_back(step), views.push_back(step->view), needs.push_back(need);
   }
   std::vector<ScoreBound> results(open.size());

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "vantage/planner/view_constraints.hpp"
+#include "vantage/planner/view_scorer.hpp"
 #include "vantage/raycore/api.hpp"
 #include "vantage/raycore/camera.hpp"
 #include "vantage/raycore/pose.hpp"
@@ -19,6 +20,12 @@ struct ShadowBounds {
   bool operator==(const ShadowBounds&) const = default;
 };
 
+/// What a look at an image tells.
+struct ShadowSight {
+  std::optional<ShadowBounds> bounds;  ///< nothing if no pixel shows shadow
+  std::optional<Score> score;          ///< the view's exact score, where the look tells it, too
+};
+
 /// What a servo sees: an image on which pixels are shadow or not. Immutable and thread-safe.
 class VANTAGE_API ShadowView {
  public:
@@ -27,6 +34,11 @@ class VANTAGE_API ShadowView {
   /// Nothing if no pixel shows shadow. A pixel is shadow if its ray meets shadow first, at a depth
   /// within the camera's range.
   virtual std::optional<ShadowBounds> shadow_bounds(const PinholeCamera& view) const = 0;
+
+  /// For methods whose scores are made of the very image that the servo looks at.
+  virtual ShadowSight look(const PinholeCamera& view) const {
+    return {shadow_bounds(view), std::nullopt};
+  }
 };
 
 /// How the servo moves the camera.
@@ -50,6 +62,7 @@ VANTAGE_API std::string_view to_text(ServoMove move);
 struct ServoStep {
   Pose T_world_cam;
   ServoMove move = ServoMove::start;
+  std::optional<Score> score = {};  ///< exact, where the servo's look told it
 };
 
 /// Simulated visual servoing (thesis 7.5): looks at the shadow's bounds on the image, turns towards

@@ -1,0 +1,76 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "vantage/planner/servo_refiner.hpp"
+#include "vantage/planner/view_scorer.hpp"
+#include "vantage/raycore/api.hpp"
+#include "vantage/raycore/box.hpp"
+#include "vantage/raycore/depth_lattice.hpp"
+#include "vantage/raycore/world_model.hpp"
+#include "vantage/volume/visibility.hpp"
+
+namespace vantage {
+
+/// How the mesh method looks at the world.
+struct MeshOptions {
+  VisibilityOptions visibility = {};
+  double enlarge =
+      1.2;  ///< known objects, about their middle, for what is imprecise (thesis 7.4.4)
+  int image_width = 160;  ///< of the images that views are scored by; their height follows
+
+  /// @throws Error bad_input unless 1 <= enlarge <= 10 and 16 <= image_width <= 16384, and as
+  /// `VisibilityOptions::check` does.
+  VANTAGE_API void check() const;
+};
+
+/// The work area as depth images alone show it (thesis 7.4.2 to 7.4.4).
+struct SeenWorld {
+  Box work_area;
+  std::vector<DepthLattice>
+      lattices;      ///< what the cameras saw through; none of those that saw none
+  WorldModel known;  ///< known objects, enlarged, and static structures as they are; no cameras
+};
+
+/// @throws Error bad_input if no camera has a depth image, or an object has no mesh, and as
+/// `MeshOptions::check` does.
+VANTAGE_API SeenWorld seen_world(const WorldModel& world, const Box& work_area,
+                                 const MeshOptions& options = {});
+
+/// The mesh method (thesis 7.4): the sum of (1 - v) · D^power over the pixels whose ray meets what
+/// no camera saw through first, at depth D metres within the view's range. v is the surface's
+/// "shadowness": the cosine at which the camera that made it looked at it, and 1 on known objects,
+/// which hide what is behind them.
+///
+/// Views are scored by images of `MeshOptions::image_width`, with the view's own field of view.
+/// Every pixel's (1 - v) (D / far)^power is rounded to a multiple of 2^-35, so that sums are exact.
+/// Also the servo's view: a pixel is shadow to it if v is below a half.
+class VANTAGE_API MeshScorer final : public ViewScorer, public ShadowView {
+ public:
+  /// @param range of the views that are to be scored: `unit()` depends on it.
+  /// @throws Error bad_input unless 0 <= depth_power <= 16 and 16 <= image_width <= 16384.
+  MeshScorer(const SeenWorld& world, const DepthRange& range, double depth_power,
+             int image_width = MeshOptions().image_width);
+  ~MeshScorer() override;
+
+  std::string_view name() const noexcept override { return "mesh"; }
+  double unit() const noexcept override;
+  std::string_view unit_name() const noexcept override { return "m^power · pixels"; }
+  Score upper_bound(const PinholeCamera& view) const override;
+  void score(std::span<const PinholeCamera> views, std::span<const Score> needed,
+             std::span<ScoreBound> results, const StopToken& stop = {}) const override;
+  using ViewScorer::score;
+  std::vector<ScoreTerm> terms(const PinholeCamera& view) const override;
+  std::optional<ShadowBounds> shadow_bounds(const PinholeCamera& view) const override;
+
+  /// With the score, if the view's image is as wide as those that views are scored by.
+  ShadowSight look(const PinholeCamera& view) const override;
+
+ private:
+  struct Impl;
+  std::unique_ptr<const Impl> impl_;
+};
+
+}  // namespace vantage

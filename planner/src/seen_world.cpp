@@ -1,0 +1,67 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "vantage/planner/mesh_scorer.hpp"
+#include "vantage/raycore/error.hpp"
+
+namespace vantage {
+namespace {
+
+/// The same object, larger about the middle of its box.
+KnownObject enlarged(const KnownObject& object, double factor) {
+  if (object.mesh == nullptr) {
+    throw bad_input(object.name, "the object has no mesh; expected one, even if it is empty");
+  }
+  if (object.mesh->empty() || factor == 1) return object;
+  const std::vector<Eigen::Vector3f>& vertices = object.mesh->vertices();
+  Eigen::AlignedBox3f box;
+  for (const Eigen::Vector3f& vertex : vertices) box.extend(vertex);
+  const Eigen::Vector3d stays = box.center().cast<double>();
+  KnownObject result = object;
+  result.mesh = std::make_shared<const TriangleMesh>(object.mesh->scaled(factor));
+  const Pose shift = Pose::from_rotation(Eigen::Matrix3d::Identity(), (1 - factor) * stays);
+  result.T_world_object = object.T_world_object * shift;
+  return result;
+}
+
+void expect_depth(const WorldModel& world) {
+  const auto with_depth = [](const Observer& camera) { return camera.depth != nullptr; };
+  if (std::any_of(world.cameras.begin(), world.cameras.end(), with_depth)) return;
+  throw bad_input("method",
+                  fmt::format("\"mesh\" looks at depth images, and none of the {} cameras has one; "
+                              "give it depth images, or choose another method",
+                              world.cameras.size()));
+}
+
+}  // namespace
+
+void MeshOptions::check() const {
+  visibility.check();
+  if (!(enlarge >= 1 && enlarge <= 10)) {  // also NaN
+    throw bad_input("mesh",
+                    fmt::format("known objects are enlarged {} times; expected 1 to 10", enlarge));
+  }
+  if (image_width < 16 || image_width > 16384) {
+    throw bad_input("mesh", fmt::format("images of {} pixels; expected 16 to 16384", image_width));
+  }
+}
+
+SeenWorld seen_world(const WorldModel& world, const Box& work_area, const MeshOptions& options) {
+  options.check();
+  expect_depth(world);
+  SeenWorld seen{work_area, {}, {{}, world.static_structures, {}}};
+  for (const KnownObject& object : world.objects) {
+    seen.known.objects.push_back(enlarged(object, options.enlarge));
+  }
+  for (const Observer& camera : world.cameras) {
+    if (camera.depth == nullptr) continue;
+    const PosedDepth image(camera.camera, camera.depth);
+    if (auto lattice = visibility_lattice(image, work_area, options.visibility)) {
+      seen.lattices.push_back(std::move(*lattice));
+    }
+  }
+  return seen;
+}
+
+}  // namespace vantage
