@@ -28,7 +28,7 @@ constexpr int kPictureWidth = 960;
 struct PlanningArguments {
   std::vector<std::string> scenes;
   fs::path folder;
-  std::vector<std::string> methods{"voxel", "shadowD0", "shadowD3", "shadowD6", "light"};
+  std::vector<std::string> methods{"voxel", "shadowD0", "shadowD3", "shadowD6", "mesh", "light"};
   std::vector<std::string> sets{"full", "production"};
   std::string depth = "none", occluders;
   std::uint64_t seed = 0;
@@ -183,9 +183,10 @@ void add_input_options(CLI::App& verb, PlanningArguments& arguments) {
 }
 
 void add_method_options(CLI::App& verb, PlanningArguments& arguments) {
-  verb.add_option("--methods", arguments.methods,
-                  "Methods, e.g. voxel,shadowD6,light; D and a number is the power of the depth. "
-                  "voxel is always there: it is the measure")
+  verb.add_option(
+          "--methods", arguments.methods,
+          "Methods, e.g. voxel,shadowD6,mesh,light; D and a number is the power of the depth. "
+          "voxel is always there: it is the measure")
       ->delimiter(',')
       ->capture_default_str();
   verb.add_option("--candidates", arguments.sets,

@@ -1,5 +1,7 @@
 #include "method_options.hpp"
 
+#include <map>
+
 namespace vantage {
 namespace {
 
@@ -11,6 +13,33 @@ void add_travel_options(CLI::App& verb, MethodArguments& arguments) {
                   "Cost of the journey: a score counts exp(-W d) times at a distance of d metres")
       ->check(CLI::NonNegativeNumber)
       ->needs(from);
+}
+
+void add_mesh_options(CLI::App& verb, MeshOptions& mesh) {
+  static const std::map<std::string, DepthHoles> holes{{"fill", DepthHoles::fill},
+                                                       {"unknown", DepthHoles::unknown}};
+  verb.add_option("--mesh-step", mesh.visibility.step_px,
+                  "Of --method mesh: a vertex every so many pixels of the depth images")
+      ->check(CLI::Range(1, 64))
+      ->capture_default_str();
+  verb.add_option("--mesh-holes", mesh.visibility.holes,
+                  "Of --method mesh: pixels without a depth; fill: from the depths around them; "
+                  "unknown: they stay shadow")
+      ->transform(CLI::CheckedTransformer(holes))
+      ->default_str("fill");
+  verb.add_option("--mesh-offset", mesh.visibility.offset_sigmas,
+                  "Of --method mesh: measured surfaces move back by so many standard deviations of "
+                  "the depth, which takes away the false shadow that noise makes")
+      ->check(CLI::Range(0.0, 100.0))
+      ->capture_default_str();
+  verb.add_option("--mesh-exact", mesh.exact_views,
+                  "Of --method mesh: with more views than this, servo iterations included, a "
+                  "shortlist of them is scored exactly")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  verb.add_option("--mesh-shortlist", mesh.shortlist, "Of --method mesh: length of that shortlist")
+      ->check(CLI::Range(1, 1000000))
+      ->capture_default_str();
 }
 
 void add_view_count_options(CLI::App& verb, ViewCount& views) {
@@ -30,12 +59,14 @@ void MethodArguments::add_to(CLI::App& verb) {
   verb.add_option(
           "--method", method.name,
           "What a view is worth; voxel: the volume that it would reveal; shadow: the shadow "
-          "on its image, weighted by distance; light: unlit surface that it would light, to "
+          "on its image, weighted by distance; mesh: what no depth image shows, weighted the same "
+          "way; light: unlit surface that it would light, to "
           "compare with")
       ->check(CLI::IsMember(method_names()))
       ->capture_default_str();
   verb.add_option("--depth-power", method.depth_power,
-                  "Of --method shadow: pixels count depth^P; 0, 3 and 6 are the thesis' D0, D3, D6")
+                  "Of --method shadow and mesh: pixels count depth^P; 0, 3 and 6 are the thesis' "
+                  "D0, D3, D6")
       ->check(CLI::Range(0.0, 16.0))
       ->capture_default_str();
   verb.add_option("--servo", servo_iterations,
@@ -48,12 +79,14 @@ void MethodArguments::add_to(CLI::App& verb) {
   verb.add_option("--ranked", ranked, "So many of the best are found for certain, in their order")
       ->check(CLI::Range(1, 1000000))
       ->capture_default_str();
+  add_mesh_options(verb, method.mesh);
   add_travel_options(verb, *this);
   add_view_count_options(verb, views);
 }
 
 void MethodArguments::apply(PlanRequest& request) const {
   request.method = method;
+  request.method.mesh.visibility.noise = request.volume.noise;
   request.servo = {servo_iterations, servo_width};
   request.search.ranked = ranked;
   if (!from_m.empty()) {

@@ -62,6 +62,25 @@ Json camera_json(const PlanRequest& request) {
           {"far_m", request.range.far_m}};
 }
 
+namespace {
+
+/// Null for the methods that it does not concern.
+Json mesh_json(const MethodOptions& method) {
+  if (method.name != "mesh") return nullptr;
+  const VisibilityOptions& visibility = method.mesh.visibility;
+  return {{"step_px", visibility.step_px},
+          {"holes", visibility.holes == DepthHoles::fill ? "fill" : "unknown"},
+          {"fill_reach_px", visibility.fill_reach_px},
+          {"offset_sigmas", visibility.offset_sigmas},
+          {"enlarge", method.mesh.enlarge},
+          {"image_width", method.mesh.image_width},
+          {"exact_views", method.mesh.exact_views},
+          {"shortlist", method.mesh.shortlist},
+          {"shortlist_voxel_m", method.mesh.shortlist_voxel_m}};
+}
+
+}  // namespace
+
 Json config_of(const PlanRequest& request) {
   Json travel;
   if (request.search.travel) {
@@ -74,6 +93,7 @@ Json config_of(const PlanRequest& request) {
       {"candidates", config_of(request.candidates, request.work_area)},
       {"constraints", config_of(request.constraints)},
       {"depth_power", request.method.depth_power},
+      {"mesh", mesh_json(request.method)},
       {"servo",
        {{"iterations", request.servo.iterations}, {"image_width", request.servo.image_width}}},
       {"ranked", request.search.ranked},

@@ -72,20 +72,25 @@ StereoSensor sensor_of(DepthKind kind, const Workcell& workcell) {
   return {.noise = workcell.volume.noise};
 }
 
+/// What is recognised, and the cameras without depth images.
 WorldModel world_of(const Workcell& workcell, const SimulatedScene& scene,
-                    const std::vector<std::size_t>& cameras, DepthKind kind, std::uint64_t seed) {
+                    const std::vector<std::size_t>& cameras) {
   std::vector<PinholeCamera> views;
   for (const std::size_t i : cameras) views.push_back(workcell.cameras[i].camera);
   const auto found = recognisable_objects(workcell.known_objects, views, scene.rays());
   WorldModel world{known(found), known(workcell.static_structures), {}};
   for (const std::size_t i : cameras) {
-    const CellCamera& camera = workcell.cameras[i];
-    std::shared_ptr<const DepthImage> depth;
-    if (kind != DepthKind::none) {
-      depth = std::make_shared<const DepthImage>(simulate_depth(
-          scene.rays(), camera.camera, sensor_of(kind, workcell), sample_hash(seed, i)));
-    }
-    world.cameras.push_back({camera.name, camera.camera, depth});
+    world.cameras.push_back({workcell.cameras[i].name, workcell.cameras[i].camera, nullptr});
+  }
+  return world;
+}
+
+WorldModel with_depth(WorldModel world, const SimulatedScene& scene,
+                      const std::vector<std::size_t>& cameras, const StereoSensor& sensor,
+                      std::uint64_t seed) {
+  for (std::size_t i = 0; i < cameras.size(); ++i) {
+    world.cameras[i].depth = std::make_shared<const DepthImage>(simulate_depth(
+        scene.rays(), world.cameras[i].camera, sensor, sample_hash(seed, cameras[i])));
   }
   return world;
 }
@@ -133,11 +138,14 @@ PlanningCell load_planning_cell(const PlanningCellName& name, DepthKind usual, s
   place_random_objects(workcell);
   const DepthKind kind = name.depth.value_or(usual);
   SimulatedScene scene = simulated_cell(workcell).scene;
-  WorldModel world = world_of(workcell, scene, cameras, kind, seed);
-  const std::string title = title_of(name, world, kind);
-  return {title,
+  const WorldModel world = world_of(workcell, scene, cameras);
+  const StereoSensor sensor =
+      sensor_of(kind == DepthKind::none ? DepthKind::noisy : kind, workcell);
+  WorldModel measured = with_depth(world, scene, cameras, sensor, seed);
+  return {title_of(name, world, kind),
           kDepthKinds[std::size_t(kind)],
-          std::move(world),
+          kind == DepthKind::none ? world : measured,
+          std::move(measured),
           plan_request(workcell, workcell.sensor_intrinsics),
           std::move(scene),
           workcell.files};

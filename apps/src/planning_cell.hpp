@@ -38,6 +38,9 @@ struct PlanningCell {
   std::string name;  ///< the workcell's file without its ending, and the cameras, e.g. "wall:side"
   std::string depth;
   WorldModel world;  ///< what the cameras could recognise, at its true pose
+  /// The same with depth images, for methods that cannot do without: those of `world`, or if it has
+  /// none, the workcell's stereo cameras'.
+  WorldModel measured;
   PlanRequest request;
   SimulatedScene scene;
   std::vector<std::filesystem::path> files;  ///< that were read

@@ -103,10 +103,12 @@ class SceneRun {
 
   Plan timed_plan(const NamedMethod& method, MethodRun& run) {
     request_.method = method.options;
-    Plan plan = plan_next_view(cell_.world, grid_, request_, stop_);
+    request_.method.mesh.visibility.noise = request_.volume.noise;
+    const WorldModel& world = method.options.name == "mesh" ? cell_.measured : cell_.world;
+    Plan plan = plan_next_view(world, grid_, request_, stop_);
     run.run_times_s.push_back(plan.score_s);
     for (int i = 1; i < settings_.repeat && !stop_.stop_requested(); ++i) {
-      run.run_times_s.push_back(plan_next_view(cell_.world, grid_, request_, stop_).score_s);
+      run.run_times_s.push_back(plan_next_view(world, grid_, request_, stop_).score_s);
     }
     return plan;
   }

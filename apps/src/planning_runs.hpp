@@ -17,7 +17,7 @@ struct NamedMethod {
   MethodOptions options;
 };
 
-/// "voxel", "light", "shadow" (D6), or "shadowD" and any power of the depth.
+/// "voxel", "mesh", "light", "shadow" (D6), or "shadowD" and any power of the depth.
 /// @throws Error bad_input for another name.
 NamedMethod named_method(const std::string& name);
 

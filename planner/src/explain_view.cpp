@@ -79,12 +79,12 @@ ViewExplanation explain_view(const WorldModel& world, const Plan& plan, int id) 
     throw bad_input("explain", "the plan was stopped before the work area was classified");
   }
   const ScoredCandidate& candidate = candidate_of(plan, id);
-  const detail::PlanningTools tools(world, plan.classified, plan.request);
+  const detail::PlanningTools tools(world, plan.classified, plan.request, plan.candidates.size());
   const detail::Utility utility(plan.request.search.travel);
   ViewExplanation view{.candidate = candidate.view};
   view.rejected = tools.search_tools().checker->check(candidate.view.T_world_cam);
   if (view.rejected == Rejection::none) {
-    view.trace = tools.search().trace(candidate.view);
+    view.trace = tools.trace(candidate.view);
     const auto worth = [&](const ScoredStep& step) {
       return utility.of(step.score.score, utility.share(step.step.T_world_cam.translation()));
     };
@@ -103,7 +103,7 @@ ViewExplanation explain_view(const WorldModel& world, const Plan& plan, int id) 
 }
 
 std::uint64_t revealed_voxels(const WorldModel& world, const Plan& plan, const Pose& T_world_cam) {
-  const detail::PlanningTools tools(world, plan.classified, plan.request);
+  const detail::PlanningTools tools(world, plan.classified, plan.request, plan.candidates.size());
   return tools.voxels().score(tools.camera().moved_to(T_world_cam)).score;
 }
 

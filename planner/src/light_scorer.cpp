@@ -6,10 +6,6 @@
 namespace vantage {
 namespace {
 
-Box work_area(const GridGeometry& geometry) {
-  return Box(geometry.origin(), geometry.corner(geometry.size()), "work area");
-}
-
 /// The samples that no camera sees.
 VisiblePoints in_the_dark(const Points& samples, const WorldModel& world) {
   const std::shared_ptr<const Scene> known = known_scene(world);
@@ -29,7 +25,7 @@ VisiblePoints in_the_dark(const Points& samples, const WorldModel& world) {
 }  // namespace
 
 LightScorer::LightScorer(const PlanningScene& scene, const WorldModel& world)
-    : LightScorer(detail::surface_samples(world, work_area(scene.grid().geometry())), world) {}
+    : LightScorer(detail::surface_samples(world, scene.grid().geometry().box()), world) {}
 
 // What faces away needs no test of its own: the surface itself lies between, as it does for a lamp.
 LightScorer::LightScorer(const detail::SurfaceSamples& samples, const WorldModel& world)

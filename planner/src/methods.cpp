@@ -13,11 +13,12 @@
 namespace vantage {
 
 const std::vector<std::string>& method_names() {
-  static const std::vector<std::string> names = {"voxel", "shadow", "light"};
+  static const std::vector<std::string> names = {"voxel", "shadow", "mesh", "light"};
   return names;
 }
 
 void MethodOptions::check() const {
+  mesh.check();
   const std::vector<std::string>& names = method_names();
   if (std::find(names.begin(), names.end(), name) == names.end()) {
     throw bad_input("method", fmt::format("\"{}\" is unknown; expected one of {}", name,
@@ -35,6 +36,11 @@ std::unique_ptr<const ViewScorer> make_view_scorer(const MethodOptions& options,
   options.check();
   if (options.name == "shadow") {
     return std::make_unique<ShadowScorer>(scene, range, options.depth_power);
+  }
+  if (options.name == "mesh") {
+    return std::make_unique<MeshScorer>(
+        seen_world(world, scene.grid().geometry().box(), options.mesh), range, options.depth_power,
+        options.mesh.image_width);
   }
   if (options.name == "light") return std::make_unique<LightScorer>(scene, world);
   return std::make_unique<VoxelScorer>(scene);

@@ -3,7 +3,10 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
+
+#include "vantage/volume/classify.hpp"
 
 namespace vantage::detail {
 namespace {
@@ -66,9 +69,25 @@ std::optional<RankedView> best_anew(const PlanningTools& left,
                                     const StopToken& stop) {
   std::vector<ViewCandidate> views;
   for (const ScoredCandidate& candidate : candidates) views.push_back(candidate.view);
-  const SearchResult result = left.search().run(views, stop);
+  const SearchResult result = left.search(views, stop);
   if (result.stopped != StopReason::none || result.ranked.empty()) return std::nullopt;
   return result.ranked.front();
+}
+
+/// A view that was chosen, as a camera; for the mesh method with the depths that it will measure if
+/// nothing stands in the shadow.
+Observer taken(const PinholeCamera& view, const WorldModel& world, const Plan& plan) {
+  if (plan.request.method.name != "mesh") return {"view", view, nullptr};
+  const DepthRange range{1e-3 * view.range().near_m, view.range().far_m};
+  const auto occluders = occluder_scene(world, *plan.classified, plan.request.volume.occluders);
+  const DepthImage hits =
+      occluders->render_depth({view.intrinsics(), view.T_world_cam(), range, "view"});
+  std::vector<float> depths_m(hits.metres().begin(), hits.metres().end());
+  for (float& depth : depths_m) {
+    if (std::isnan(depth)) depth = float(range.far_m);  // nothing in the way
+  }
+  const Intrinsics& k = view.intrinsics();
+  return {"view", view, std::make_shared<const DepthImage>(k.width, k.height, depths_m)};
 }
 
 /// The request for the views after one at `T_world_cam`.
@@ -102,9 +121,9 @@ void add_next_views(const WorldModel& world, const PlanningTools& tools, Plan& p
   while (int(plan.views.size()) < plan.request.views.most && !stop.stop_requested()) {
     const Pose& last = plan.views.back().view.T_world_cam;
     // A method that cannot bound one gain by another searches anew, the views before being taken.
-    seen.cameras.push_back({"view", tools.camera().moved_to(last), nullptr});
+    seen.cameras.push_back(taken(tools.camera().moved_to(last), world, plan));
     const PlanRequest request = from_view(plan.request, last);
-    const PlanningTools left(seen, plan.grid, request);
+    const PlanningTools left(seen, plan.grid, request, plan.candidates.size());
     const std::optional<RankedView> next =
         lazy ? greedy.next(left.scorer(), request.search.travel, stop)
              : best_anew(left, plan.candidates, stop);

@@ -34,10 +34,10 @@ void search(const WorldModel& world, const std::vector<ViewCandidate>& views, Pl
   if (stopped()) return;
   const PlanningScene scene(world, plan.classified, plan.request.volume.occluders);
   if (stopped()) return;
-  const detail::PlanningTools tools(world, scene, plan.request);
+  const detail::PlanningTools tools(world, scene, plan.request, views.size());
   plan.score_unit = tools.scorer()->unit();
   plan.score_unit_name = tools.scorer()->unit_name();
-  SearchResult found = tools.search().run(views, stop);
+  SearchResult found = tools.search(views, stop);
   plan.candidates = std::move(found.candidates);
   plan.ranked = std::move(found.ranked);
   plan.finished = found.finished;
@@ -46,7 +46,7 @@ void search(const WorldModel& world, const std::vector<ViewCandidate>& views, Pl
   for (RankedView& view : plan.ranked) {
     view.revealed_voxels = tools.voxels().score(tools.camera().moved_to(view.T_world_cam)).score;
   }
-  plan.trace = tools.search().trace(plan.candidates[plan.ranked.front().candidate].view, stop);
+  plan.trace = tools.trace(plan.candidates[plan.ranked.front().candidate].view, stop);
   detail::add_view(tools.voxels(), tools.camera(), plan.ranked.front(), plan);
   if (plan.request.views.most > 1) detail::add_next_views(world, tools, plan, stop);
 }

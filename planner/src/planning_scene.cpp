@@ -19,10 +19,7 @@ PlanningScene::PlanningScene(const WorldModel& world, std::shared_ptr<const Stat
 
 Eigen::Vector3d PlanningScene::middle_of_shadow() const {
   const PointsView points = shadow_centres();
-  if (points.size == 0) {
-    const GridGeometry& geometry = grid().geometry();
-    return 0.5 * (geometry.corner({0, 0, 0}) + geometry.corner(geometry.size()));
-  }
+  if (points.size == 0) return grid().geometry().box().centre();
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   for (std::size_t i = 0; i < points.size; ++i) sum += points[i].cast<double>();
   return sum / double(points.size);

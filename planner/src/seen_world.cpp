@@ -45,6 +45,11 @@ void MeshOptions::check() const {
   if (image_width < 16 || image_width > 16384) {
     throw bad_input("mesh", fmt::format("images of {} pixels; expected 16 to 16384", image_width));
   }
+  if (exact_views < 0 || shortlist < 1 || !(shortlist_voxel_m > 0)) {
+    throw bad_input("mesh", fmt::format("a shortlist of {} in voxels of {} m from {} views on; "
+                                        "expected at least 1, a positive size and at least 0",
+                                        shortlist, shortlist_voxel_m, exact_views));
+  }
 }
 
 SeenWorld seen_world(const WorldModel& world, const Box& work_area, const MeshOptions& options) {

@@ -1,6 +1,7 @@
 #include "site.hpp"
 
 #include <algorithm>
+#include <numeric>
 
 namespace vantage::detail {
 
@@ -20,6 +21,23 @@ std::vector<SiteRange> sites_of(std::span<const ViewCandidate> candidates) {
     same ? void(sites.back().last = i + 1) : sites.push_back({i, i + 1});
   }
   return sites;
+}
+
+std::vector<SiteRange> strewn(const std::vector<SiteRange>& sites) {
+  const std::size_t n = sites.size();
+  std::size_t stride = std::max<std::size_t>(1, std::size_t(0.618 * double(n)));
+  while (std::gcd(stride, n) != 1) ++stride;
+  std::vector<SiteRange> order;
+  for (std::size_t i = 0, at = 0; i < n; ++i, at = (at + stride) % n) order.push_back(sites[at]);
+  return order;
+}
+
+std::size_t finished(std::span<const ScoredCandidate> candidates) {
+  return std::size_t(
+      std::count_if(candidates.begin(), candidates.end(), [](const ScoredCandidate& candidate) {
+        return candidate.rejected != Rejection::none ||
+               candidate.score.known != ScoreBound::Known::nothing;
+      }));
 }
 
 void Site::prepare(const StopToken& stop) {

@@ -30,6 +30,12 @@ struct SiteRange {
 };
 std::vector<SiteRange> sites_of(std::span<const ViewCandidate> candidates);
 
+/// All sites, evenly strewn over the list: one step is about the golden ratio of it.
+std::vector<SiteRange> strewn(const std::vector<SiteRange>& sites);
+
+/// How many candidates were rejected, scored, surpassed or passed over.
+std::size_t finished(std::span<const ScoredCandidate> candidates);
+
 /// The work on one site: first `prepare`, which finds where the camera could go and bounds what
 /// that would be worth, then, if the bound is good enough, `score`. One thread at a time.
 class Site {

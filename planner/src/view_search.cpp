@@ -4,7 +4,6 @@
 #include <tbb/parallel_for.h>
 
 #include <cmath>
-#include <numeric>
 
 #include "ranking.hpp"
 #include "site.hpp"
@@ -22,24 +21,6 @@ using detail::SiteRange;
 constexpr std::size_t kFirstChunkViews = 64;
 constexpr std::size_t kLargestChunkViews = 8192;
 constexpr std::size_t kBatchSites = 16;
-
-/// All sites, evenly strewn over the list: one step is about the golden ratio of it.
-std::vector<SiteRange> strewn(const std::vector<SiteRange>& sites) {
-  const std::size_t n = sites.size();
-  std::size_t stride = std::max<std::size_t>(1, std::size_t(0.618 * double(n)));
-  while (std::gcd(stride, n) != 1) ++stride;
-  std::vector<SiteRange> order;
-  for (std::size_t i = 0, at = 0; i < n; ++i, at = (at + stride) % n) order.push_back(sites[at]);
-  return order;
-}
-
-std::size_t finished(const SearchResult& result) {
-  return std::size_t(std::count_if(result.candidates.begin(), result.candidates.end(),
-                                   [](const ScoredCandidate& candidate) {
-                                     return candidate.rejected != Rejection::none ||
-                                            candidate.score.known != ScoreBound::Known::nothing;
-                                   }));
-}
 
 }  // namespace
 
@@ -110,7 +91,7 @@ SearchResult ViewSearch::run(std::span<const ViewCandidate> candidates,
   SearchResult result;
   for (const ViewCandidate& view : candidates) result.candidates.push_back({view});
   stop.expect(candidates.size());
-  const std::vector<SiteRange> order = strewn(detail::sites_of(candidates));
+  const std::vector<SiteRange> order = detail::strewn(detail::sites_of(candidates));
   Ranking ranking(impl_->options.ranked);
   std::size_t chunk_views = kFirstChunkViews;
   for (std::size_t next = 0; next < order.size() && !stop.stop_requested();) {
@@ -123,7 +104,7 @@ SearchResult ViewSearch::run(std::span<const ViewCandidate> candidates,
     chunk_views = std::min(2 * chunk_views, kLargestChunkViews);
   }
   result.ranked = ranking.views();
-  result.finished = finished(result);
+  result.finished = detail::finished(result.candidates);
   if (result.finished < candidates.size()) result.stopped = stop.reason();
   return result;
 }

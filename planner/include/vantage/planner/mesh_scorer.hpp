@@ -21,8 +21,15 @@ struct MeshOptions {
       1.2;  ///< known objects, about their middle, for what is imprecise (thesis 7.4.4)
   int image_width = 160;  ///< of the images that views are scored by; their height follows
 
-  /// @throws Error bad_input unless 1 <= enlarge <= 10 and 16 <= image_width <= 16384, and as
-  /// `VisibilityOptions::check` does.
+  /// Up to so many views, servo iterations included, all are scored by rays. Of more, the shadow
+  /// method in a carved grid picks a shortlist, and only that is scored: the best view may be
+  /// missed then.
+  int exact_views = 40000;
+  int shortlist = 100;
+  double shortlist_voxel_m = 0.0047;
+
+  /// @throws Error bad_input unless 1 <= enlarge <= 10, 16 <= image_width <= 16384, 0 <=
+  /// exact_views, 1 <= shortlist and 0 < shortlist_voxel_m, and as `VisibilityOptions::check` does.
   VANTAGE_API void check() const;
 };
 

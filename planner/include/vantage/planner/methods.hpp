@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "vantage/planner/mesh_scorer.hpp"
 #include "vantage/planner/planning_scene.hpp"
 #include "vantage/planner/view_scorer.hpp"
 #include "vantage/raycore/api.hpp"
@@ -14,10 +15,11 @@ namespace vantage {
 /// Which method scores the views, and how.
 struct MethodOptions {
   std::string name = "voxel";
-  double depth_power = 6;  ///< of `shadow`; 0, 3 and 6 are the thesis' D0, D3 and D6
+  double depth_power = 6;  ///< of `shadow` and `mesh`; 0, 3 and 6 are the thesis' D0, D3 and D6
+  MeshOptions mesh = {};
 
   /// @throws Error bad_input for a name that is none of `method_names()`, and a power that is not
-  /// from 0 to 16.
+  /// from 0 to 16, and as `MeshOptions::check` does.
   VANTAGE_API void check() const;
 };
 
@@ -27,7 +29,7 @@ VANTAGE_API const std::vector<std::string>& method_names();
 /// A method by its name.
 /// @param scene made from `world`.
 /// @param range of the views that are to be scored.
-/// @throws Error as `MethodOptions::check` does.
+/// @throws Error as `MethodOptions::check` does, for `mesh` also as `seen_world` does.
 VANTAGE_API std::unique_ptr<const ViewScorer> make_view_scorer(const MethodOptions& options,
                                                                const PlanningScene& scene,
                                                                const WorldModel& world,

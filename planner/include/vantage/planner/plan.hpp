@@ -57,12 +57,12 @@ struct NextView {
 struct Plan {
   PlanRequest request;  ///< as it was used
   std::string score_unit_name = {};
-  double score_unit = 1;                             ///< what one step of a `Score` is
-  std::vector<ScoredCandidate> candidates = {};      ///< by id, as scored for the first view
-  std::vector<RankedView> ranked = {};               ///< the best of them
-  std::vector<ScoredStep> trace = {};                ///< the best one's servo iterations
-  std::vector<NextView> views = {};                  ///< the first is `ranked.front()`
-  std::size_t finished = 0;                          ///< candidates: rejected, scored or surpassed
+  double score_unit = 1;                         ///< what one step of a `Score` is
+  std::vector<ScoredCandidate> candidates = {};  ///< by id, as scored for the first view
+  std::vector<RankedView> ranked = {};           ///< the best of them
+  std::vector<ScoredStep> trace = {};            ///< the best one's servo iterations
+  std::vector<NextView> views = {};              ///< the first is `ranked.front()`
+  std::size_t finished = 0;  ///< candidates: rejected, scored, surpassed, passed over
   std::shared_ptr<const StateGrid> classified = {};  ///< as the given cameras left it
   std::shared_ptr<const StateGrid> grid = {};        ///< with what all of `views` reveal
   StopReason stopped = StopReason::none;

@@ -18,8 +18,9 @@ using Score = std::uint64_t;
 /// What is known of a view's score.
 struct ScoreBound {
   enum class Known : std::uint8_t {
-    nothing,  ///< it was stopped before anything was known
-    at_most,  ///< `score` is a certified upper bound
+    nothing,      ///< it was stopped before anything was known
+    passed_over,  ///< not scored: a cheaper method let others go before; `score` is of no use
+    at_most,      ///< `score` is a certified upper bound
     exact,
   };
   Known known = Known::nothing;

@@ -63,8 +63,8 @@ struct RankedView {
 struct SearchResult {
   std::vector<ScoredCandidate> candidates;  ///< in the order given
   std::vector<RankedView> ranked;           ///< the best first; among equals the lower id
-  std::size_t finished = 0;                 ///< candidates that were rejected, scored or surpassed
-  StopReason stopped = StopReason::none;    ///< why, if not all were finished
+  std::size_t finished = 0;               ///< candidates rejected, scored, surpassed or passed over
+  StopReason stopped = StopReason::none;  ///< why, if not all were finished
 };
 
 /// Finds the best of many candidates, and certainly the very one that scoring each of them in full

@@ -31,6 +31,7 @@ class VANTAGE_API GridGeometry {
   const Eigen::Vector3i& size() const noexcept { return size_; }
   std::uint64_t voxel_count() const;
   double volume_m3() const { return double(voxel_count()) * voxel_volume_m3(); }
+  Box box() const { return Box(corner({0, 0, 0}), corner(size_), "grid"); }
 
   bool contains(const Eigen::Vector3i& voxel) const {
     return (voxel.array() >= 0).all() && (voxel.array() < size_.array()).all();

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <span>
+
+#include "vantage/planner/view_search.hpp"
+
+namespace vantage::detail {
+
+/// Finds the best of many candidates by a method too dear for all of them: a cheaper one, of which
+/// nothing is certain, picks a shortlist, and those are scored exactly.
+///
+/// In rounds, each about twice as large as the one before, so that there is an answer soon. What
+/// was not on the shortlist is `passed_over`; the best of the others are found for certain.
+class ShortlistSearch {
+ public:
+  /// @param size of the shortlist; `cheap` finds at least as many for certain.
+  ShortlistSearch(const ViewSearch& cheap, const ViewSearch& exact, int ranked, int size)
+      : cheap_(cheap), exact_(exact), ranked_(ranked), size_(size) {}
+
+  SearchResult run(std::span<const ViewCandidate> candidates, const StopToken& stop) const;
+
+ private:
+  ViewSearch cheap_, exact_;
+  int ranked_, size_;
+};
+
+}  // namespace vantage::detail
