@@ -39,7 +39,7 @@ TEST_CASE("on random workcells a plan's top ten are those of scoring everything,
   std::size_t left_out = 0;
   for (std::uint32_t seed = 0; seed < test::scene_count(3); ++seed) {
     const WorldModel world = test::random_workcell(seed);
-    for (const std::string method : {"voxel", "shadow", "light"}) {
+    for (const std::string method : {"voxel", "shadow", "light", "mesh"}) {
       CAPTURE(seed);
       CAPTURE(method);
       PlanRequest request = test::small_request();
