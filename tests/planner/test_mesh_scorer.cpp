@@ -127,7 +127,7 @@ TEST_CASE("on random workcells a score is the sum over pixels, and a look tells 
     MeshOptions options;
     options.visibility.step_px = 1 + int(random.below(4));
     const SeenWorld world =
-        seen_world(test::random_workcell(seed), test::random_workcell_area(), options);
+        seen_world(test::random_workcell(seed, true), test::random_workcell_area(), options);
     const double power = std::array{0.0, 3.0, 6.0, 2.5}[seed % 4];
     const MeshScorer scorer(world, kRange, power, kSmall.width);
     for (int i = 0; i < 6; ++i) {

@@ -31,7 +31,7 @@ Box random_workcell_area() {
   return Box({-0.12, -0.12, 0}, {0.12, 0.12, 0.2});
 }
 
-WorldModel random_workcell(std::uint32_t seed) {
+WorldModel random_workcell(std::uint32_t seed, bool all_measure) {
   Random random(seed);
   WorldModel world;
   const std::uint32_t boxes = 1 + random.below(4);
@@ -62,7 +62,7 @@ WorldModel random_workcell(std::uint32_t seed) {
     const PinholeCamera camera(
         {61, 47, random.uniform(50, 120), random.uniform(50, 120), 30.2, 23.7},
         Pose::looking_at(target + random.uniform(0.3, 0.6) * direction, target), {0.1, 1.5});
-    const bool measures = random.below(2) == 0;
+    const bool measures = random.below(2) == 0 || all_measure;
     world.cameras.push_back({std::to_string(i), camera,
                              measures ? with_holes(scene->render_depth(camera), random) : nullptr});
   }

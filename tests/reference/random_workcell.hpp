@@ -9,8 +9,8 @@ namespace vantage::test {
 
 /// One to four turned boxes and sometimes a sphere in a work area of 24 cm, which one to three
 /// small cameras look at. Every other camera measures depth: of the known objects and of a foreign
-/// box, with holes.
-WorldModel random_workcell(std::uint32_t seed);
+/// box, with holes. With `all_measure`, all of them do.
+WorldModel random_workcell(std::uint32_t seed, bool all_measure = false);
 
 /// The work area of random workcells.
 Box random_workcell_area();
