@@ -16,7 +16,8 @@ void CommonOptions::add_to(CLI::App& verb) {
       ->needs(folder);
   verb.add_flag("--save-surface", output.save_surface,
                 "Write the surface of the shadow that stays: shadow.ply, voxel by voxel, and "
-                "shadow_smooth.ply")
+                "shadow_smooth.ply; with --method mesh also unseen.ply: what no depth image "
+                "shows")
       ->needs(folder);
   verb.add_flag("--save-scene", output.save_scene, "Write scene.glb: voxels and cameras in 3D")
       ->needs(folder);

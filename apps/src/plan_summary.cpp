@@ -34,6 +34,18 @@ std::string reveals_text(const Plan& plan, std::uint64_t voxels) {
                      shadow > 0 ? 100 * revealed / shadow : 0.0);
 }
 
+/// Nothing for methods that look at all candidates.
+std::string shortlist_text(const Plan& plan) {
+  const auto passed_over = std::count_if(
+      plan.candidates.begin(), plan.candidates.end(), [](const ScoredCandidate& candidate) {
+        return candidate.score.known == ScoreBound::Known::passed_over;
+      });
+  if (passed_over == 0) return "";
+  return fmt::format(
+      "shortlist  {} candidates were passed over for less shadow in a carved grid of {} m\n",
+      passed_over, plan.request.method.mesh.shortlist_voxel_m);
+}
+
 std::string best_summary(const Plan& plan) {
   const RankedView& best = *plan.best();
   std::string text = fmt::format(
@@ -47,6 +59,7 @@ std::string best_summary(const Plan& plan) {
     text += fmt::format("score      {:.6g} {} (method {})\n", plan.in_units(best.score),
                         plan.score_unit_name, plan.request.method.name);
   }
+  text += shortlist_text(plan);
   std::uint64_t revealed = plan.views.front().revealed_voxels;
   for (std::size_t i = 1; i < plan.views.size(); ++i) {
     const NextView& next = plan.views[i];

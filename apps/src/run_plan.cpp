@@ -12,6 +12,7 @@
 #include "vantage/raycore/error.hpp"
 #include "vantage/raycore/file.hpp"
 #include "vantage/raycore/mesh_io.hpp"
+#include "vantage/volume/carve.hpp"
 #include "vantage/volume/grid_files.hpp"
 #include "vantage/volume/smooth_surface.hpp"
 #include "workers.hpp"
@@ -25,6 +26,13 @@ void make_folder(const fs::path& folder) {
   std::error_code error;
   fs::create_directories(folder, error);
   if (error) throw bad_input(folder.string(), "cannot make this folder: " + error.message());
+}
+
+/// What no depth image shows, known objects or not.
+TriangleMesh unseen_surface_of(const Plan& plan, const WorldModel& world) {
+  const GridGeometry& geometry = plan.grid->geometry();
+  const SeenWorld seen = seen_world(world, geometry.box(), plan.request.method.mesh);
+  return unseen_surface(seen.lattices, geometry);
 }
 
 void write_extras(const Plan& plan, const ShadowRegions& regions, const WorldModel& world,
@@ -42,6 +50,8 @@ void write_extras(const Plan& plan, const ShadowRegions& regions, const WorldMod
         [&](const fs::path& p) { write_ply(p, plan.grid->faces(VoxelState::shadow)); });
   write(output.save_surface, "shadow_smooth.ply",
         [&](const fs::path& p) { write_ply(p, smooth_surface(*plan.grid, VoxelState::shadow)); });
+  write(output.save_surface && plan.request.method.name == "mesh", "unseen.ply",
+        [&](const fs::path& p) { write_ply(p, unseen_surface_of(plan, world)); });
   write(output.save_scene, "scene.glb",
         [&](const fs::path& p) { write_scene_model(p, plan, world); });
   write(output.pictures, "overview.png",
