@@ -5,6 +5,8 @@
 
 #include <map>
 
+#include "vantage/raycore/error.hpp"
+
 namespace vantage::detail {
 namespace {
 
@@ -37,6 +39,12 @@ Topologies topologies_of(const std::vector<const KnownObject*>& objects) {
 }
 
 }  // namespace
+
+void check_meshes(const WorldModel& world) {
+  for_each_known(world, [](const KnownObject& object) {
+    if (object.mesh == nullptr) throw bad_input("object " + object.name, "it has no mesh");
+  });
+}
 
 KnownObjects::KnownObjects(const WorldModel& world, const GridFrame& frame,
                            const Pose& T_grid_world, const StopToken& stop)

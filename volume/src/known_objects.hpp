@@ -26,6 +26,9 @@ struct KnownObjects {
                const StopToken& stop);
 };
 
+/// @throws Error bad_input if an object or a static structure has no mesh.
+void check_meshes(const WorldModel& world);
+
 /// Calls `visit` for the objects, then for the static structures.
 template <class Visit>
 void for_each_known(const WorldModel& world, const Visit& visit) {

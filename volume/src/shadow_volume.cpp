@@ -14,9 +14,7 @@ namespace vantage {
 namespace {
 
 void check(const WorldModel& world) {
-  detail::for_each_known(world, [](const KnownObject& object) {
-    if (object.mesh == nullptr) throw bad_input("object " + object.name, "it has no mesh");
-  });
+  detail::check_meshes(world);
   for (const Observer& camera : world.cameras) {
     if (camera.depth != nullptr) PosedDepth(camera.camera, camera.depth, "camera " + camera.name);
   }

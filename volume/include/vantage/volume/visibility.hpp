@@ -1,16 +1,11 @@
 #pragma once
 
-#include <memory>
 #include <optional>
-#include <span>
-#include <vector>
 
 #include "vantage/raycore/api.hpp"
 #include "vantage/raycore/box.hpp"
 #include "vantage/raycore/depth_image.hpp"
 #include "vantage/raycore/depth_lattice.hpp"
-#include "vantage/raycore/triangle_mesh.hpp"
-#include "vantage/volume/grid_geometry.hpp"
 #include "vantage/volume/volume_options.hpp"
 
 namespace vantage {
@@ -36,6 +31,18 @@ struct VisibilityOptions {
 };
 
 /// The visibility mesh of a depth image, of the part of it that shows the work area.
+///
+/// Vertices are at every `step_px`-th pixel of the rectangle of pixels whose rays can meet the work
+/// area, and at its last row and column: at the image's border the mesh ends at the outermost
+/// pixels' centres. A vertex has its own pixel's depth; what is smaller than a step may be missed.
+///
+/// A hole is filled linearly in inverse depth, in which surfaces are planes: between the nearest
+/// depths to both sides, along its row and its column, weighted by nearness; where no two sides are
+/// within reach, with the continuation from one side, but never farther than that side's depth: it
+/// would be free space that nobody measured.
+///
+/// The surface moves towards the camera by `offset_sigmas` times what the noise is in inverse
+/// depth: in depth that is σ(z), to first order.
 /// @returns nothing if the camera does not have the work area in its image, or measured nothing
 /// there.
 /// @throws Error bad_input as `VisibilityOptions::check` does.

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <vector>
+
+#include "grid_frame.hpp"
+#include "lattice_axis.hpp"
+#include "min_pyramid.hpp"
+#include "vantage/raycore/box_projector.hpp"
+#include "vantage/raycore/depth_lattice.hpp"
+
+namespace vantage::detail {
+
+/// What a lattice says of a block's voxels.
+struct BlockSeen {
+  BlockBits covered;  ///< the centre is in the lattice's rectangle of pixels
+  BlockBits seen;     ///< and in front of its surface
+};
+
+/// What it says of all voxels of a range; nothing where they differ, or might.
+struct RangeSeen {
+  std::optional<bool> covered, seen;
+};
+
+/// A depth lattice prepared for comparison with voxels, in the grid's frame. Immutable.
+///
+/// Single voxels are compared in double, as `DepthLattice::sees` does, and get the same answer but
+/// for rounding; ranges are decided by certified bounds.
+class LatticeView {
+ public:
+  /// @param lattice valid.
+  /// @param T_grid_world where the grid's frame is.
+  LatticeView(const DepthLattice& lattice, const Pose& T_grid_world, const GridFrame& frame);
+
+  RangeSeen ask(const CellRange& blocks) const;
+  BlockSeen compare(const Eigen::Vector3i& block) const;
+
+ private:
+  /// Cells [i0, i1] × [j0, j1].
+  struct Cells {
+    int i0, i1, j0, j1;
+    int count() const { return (i1 - i0 + 1) * (j1 - j0 + 1); }
+  };
+  struct BoxOnImage;
+
+  void build_pyramids(const DepthLattice& lattice);
+  std::optional<bool> ask_planes(const Cells& cells, const Extent& box, double margin_m) const;
+  bool planes_of_cell(int i, int j, Eigen::Vector3d (&planes)[2]) const;
+
+  const GridFrame& frame_;
+  LatticeAxis columns_, rows_;
+  std::vector<double> inverse_;  ///< 1 / depth by vertex
+  PinholeCamera camera_;         ///< its pixels are the axes' units
+  BoxProjector projector_;
+  Eigen::Matrix3d image_grid_;              ///< to (u z, v z, z), from the camera's centre
+  MinPyramid nearest_, negative_farthest_;  ///< by cell; ∓infinity where there is none
+};
+
+}  // namespace vantage::detail
