@@ -60,8 +60,8 @@ void fill_depths(const detail::FilledDepth& depth, double offset, DepthLattice& 
     float* const row = &lattice.depth[j * lattice.width()];
     for (std::size_t i = 0; i < lattice.width(); ++i) {
       const double inverse = depth.inverse(int(lattice.columns[i]), int(lattice.rows[j]));
-      // NaN stays; no offset leads into the camera.
-      row[i] = std::max(float(1 / (inverse + offset)), std::numeric_limits<float>::min());
+      // NaN stays; no depth more than doubles.
+      row[i] = float(1 / std::max(inverse - offset, 0.5 * inverse));
     }
   });
 }

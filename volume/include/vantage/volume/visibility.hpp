@@ -41,8 +41,9 @@ struct VisibilityOptions {
 /// within reach, with the continuation from one side, but never farther than that side's depth: it
 /// would be free space that nobody measured.
 ///
-/// The surface moves towards the camera by `offset_sigmas` times what the noise is in inverse
-/// depth: in depth that is σ(z), to first order.
+/// The surface moves away from the camera by `offset_sigmas` times what the noise is in inverse
+/// depth: in depth that is σ(z), to first order. What is measured too near by chance, before the
+/// floor and the walls of objects, is then no unseen sliver.
 /// @returns nothing if the camera does not have the work area in its image, or measured nothing
 /// there.
 /// @throws Error bad_input as `VisibilityOptions::check` does.
