@@ -14,27 +14,13 @@
 namespace vantage {
 namespace detail {
 
-SceneImpl::SceneImpl() : device(rtcNewDevice(nullptr)) {
-  if (device == nullptr) {
-    throw Error(ErrorCode::out_of_resources, "scene", "Embree cannot be started on this machine");
-  }
-  top = rtcNewScene(device);
-  check();
+SceneImpl::SceneImpl() : top(rtcNewScene(device)) {
+  device.check();
 }
 
 SceneImpl::~SceneImpl() {
-  if (top != nullptr) rtcReleaseScene(top);
+  rtcReleaseScene(top);
   for (const RTCScene scene : shared) rtcReleaseScene(scene);
-  if (device != nullptr) rtcReleaseDevice(device);
-}
-
-void SceneImpl::check() const {
-  const RTCError error = rtcGetDeviceError(device);
-  if (error == RTC_ERROR_NONE) return;
-  throw Error(ErrorCode::out_of_resources, "scene",
-              error == RTC_ERROR_OUT_OF_MEMORY
-                  ? "there is not enough memory for the BVH; use a coarser mesh or larger voxels"
-                  : "Embree failed with error " + std::to_string(int(error)));
 }
 
 namespace {
@@ -44,7 +30,7 @@ void attach(const SceneImpl& impl, RTCScene scene, RTCGeometry geometry, ObjectI
   rtcCommitGeometry(geometry);
   rtcAttachGeometryByID(scene, geometry, id);
   rtcReleaseGeometry(geometry);
-  impl.check();
+  impl.device.check();
 }
 
 ObjectTriangles attach_mesh(const SceneImpl& impl, RTCScene scene, const TriangleMesh& mesh,
@@ -54,7 +40,7 @@ ObjectTriangles attach_mesh(const SceneImpl& impl, RTCScene scene, const Triangl
   const auto fill = [&](RTCBufferType type, RTCFormat format, const auto& items) {
     const std::size_t item_bytes = sizeof(items[0]);
     void* buffer = rtcSetNewGeometryBuffer(geometry, type, 0, format, item_bytes, items.size());
-    impl.check();
+    impl.device.check();
     std::memcpy(buffer, items.data(), items.size() * item_bytes);
     return static_cast<decltype(items.data())>(buffer);
   };
@@ -62,14 +48,6 @@ ObjectTriangles attach_mesh(const SceneImpl& impl, RTCScene scene, const Triangl
                                fill(RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT3, mesh.triangles())};
   attach(impl, scene, geometry, id);
   return copies;
-}
-
-void commit(const SceneImpl& impl, RTCScene scene) {
-  // Robust: without it rays slip through shared edges.
-  rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
-  rtcSetSceneBuildQuality(scene, RTC_BUILD_QUALITY_MEDIUM);
-  rtcCommitScene(scene);
-  impl.check();
 }
 
 }  // namespace
@@ -96,7 +74,7 @@ struct SceneBuilder::Impl {
       found.scene = rtcNewScene(scene->device);
       scene->shared.push_back(found.scene);
       found.triangles = detail::attach_mesh(*scene, found.scene, *mesh, 0);
-      detail::commit(*scene, found.scene);
+      detail::commit_scene(scene->device, found.scene);
     }
     return found;
   }
@@ -145,7 +123,7 @@ ObjectId SceneBuilder::add_instance(std::shared_ptr<const TriangleMesh> mesh,
 }
 
 std::shared_ptr<const Scene> SceneBuilder::build() {
-  detail::commit(*impl_->scene, impl_->scene->top);
+  detail::commit_scene(impl_->scene->device, impl_->scene->top);
   std::shared_ptr<const Scene> scene(new Scene(std::move(impl_->scene)));
   impl_ = std::make_unique<Impl>();
   return scene;

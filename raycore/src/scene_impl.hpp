@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "embree.hpp"
+#include "embree_device.hpp"
 #include "vantage/raycore/pose.hpp"
 #include "vantage/raycore/triangle_mesh.hpp"
 
@@ -31,8 +31,8 @@ struct ObjectTriangles {
 
 /// Owns Embree's device and scenes. Geometry ids of the top scene are ObjectIds, for instances too.
 struct SceneImpl {
-  RTCDevice device = nullptr;
-  RTCScene top = nullptr;
+  EmbreeDevice device;
+  RTCScene top;
   std::vector<RTCScene> shared;                  ///< one per mesh that is instanced
   std::vector<Eigen::Matrix3f> normal_to_world;  ///< one per object; identity but for instances
   std::vector<ObjectTriangles> triangles;        ///< one per object
@@ -43,9 +43,6 @@ struct SceneImpl {
   ~SceneImpl();
   SceneImpl(const SceneImpl&) = delete;
   SceneImpl& operator=(const SceneImpl&) = delete;
-
-  /// @throws Error if Embree reported a failure since the last call.
-  void check() const;
 
   /// Debian 12's Embree with AVX-512 can hang in rtcOccluded16 on coherent packets that meet
   /// instances, so those go as incoherent.

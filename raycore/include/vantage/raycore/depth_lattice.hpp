@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <string_view>
 #include <vector>
 
 #include "vantage/raycore/api.hpp"
@@ -18,16 +19,16 @@ namespace vantage {
 /// plane.
 struct DepthLattice {
   PinholeCamera camera;        ///< its depth range plays no part
-  std::vector<float> columns;  ///< continuous pixel coordinates, strictly increasing, at least 2
+  std::vector<float> columns;  ///< pixel coordinates, strictly increasing, 2 to 32,767 of them
   std::vector<float> rows;     ///< the same
   std::vector<float> depth;    ///< metres along the optical axis; NaN where it is unknown
 
   std::size_t width() const noexcept { return columns.size(); }
   std::size_t height() const noexcept { return rows.size(); }
 
-  /// @throws Error bad_input unless the sizes fit, the coordinates increase, and every depth is
-  /// positive and finite, or NaN.
-  VANTAGE_API void check() const;
+  /// @throws Error bad_input unless the sizes fit, the coordinates increase and are within a
+  /// million pixels, and every depth is positive and finite, or NaN; `where` names the place.
+  VANTAGE_API void check(std::string_view where = "depth lattice") const;
 
   /// Whether cell (i, j), with i < width() - 1 and j < height() - 1, is there.
   VANTAGE_API bool has_cell(std::size_t i, std::size_t j) const;

@@ -1,0 +1,72 @@
+#include "lattice_probe.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace vantage::detail {
+namespace {
+
+/// A bucket is at most as wide as the narrowest cell, within reason.
+int bucket_count(const std::vector<float>& lines) {
+  constexpr double kMostBuckets = 1 << 14;
+  double narrowest = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 1; i < lines.size(); ++i) {
+    narrowest = std::min(narrowest, double(lines[i]) - double(lines[i - 1]));
+  }
+  const double range = double(lines.back()) - double(lines.front());
+  return int(std::clamp(std::ceil(range / narrowest), 1.0, kMostBuckets));
+}
+
+}  // namespace
+
+AxisLookup::AxisLookup(const std::vector<float>& lines)
+    : first(lines.front()), last(lines.back()), starts(lines), inverse_width(lines.size() - 1) {
+  const int buckets = bucket_count(lines);
+  last_bucket = buckets - 1;
+  buckets_per_pixel = std::min(float(buckets) / (last - first), 1e30f);
+  const auto cells = int(inverse_width.size());
+  for (int i = 0; i < cells; ++i)
+    inverse_width[std::size_t(i)] = 1 / (lines[std::size_t(i) + 1] - lines[std::size_t(i)]);
+  starts.back() = std::numeric_limits<float>::infinity();
+
+  // Line i is found by the same arithmetic as every coordinate, so that no coordinate behind it
+  // comes into a bucket before it.
+  cell_of_bucket.assign(std::size_t(buckets), 0);
+  std::vector<int> cells_begun(std::size_t(buckets), 0);
+  for (int i = 1; i < cells; ++i) {
+    const int bucket =
+        std::min(int((lines[std::size_t(i)] - first) * buckets_per_pixel), last_bucket);
+    ++cells_begun[std::size_t(bucket)];
+  }
+  int cell = 0;
+  for (std::size_t bucket = 0; bucket < cells_begun.size(); ++bucket) {
+    cell_of_bucket[bucket] = cell;
+    cell += cells_begun[bucket];
+  }
+  steps = *std::max_element(cells_begun.begin(), cells_begun.end());
+}
+
+LatticeProbe::LatticeProbe(const DepthLattice& lattice)
+    : columns(lattice.columns),
+      rows(lattice.rows),
+      width(int(lattice.width())),
+      inverse_depth(lattice.depth.size()) {
+  for (std::size_t i = 0; i < inverse_depth.size(); ++i) inverse_depth[i] = 1 / lattice.depth[i];
+  const Intrinsics& k = lattice.camera.intrinsics();
+  Eigen::Matrix3d K;
+  K << k.fx, 0, k.cx, 0, k.fy, k.cy, 0, 0, 1;
+  pixels_from_world = K * lattice.camera.T_world_cam().rotation().transpose();
+}
+
+ProbeView::ProbeView(const LatticeProbe& lattice_probe, const Eigen::Vector3d& relative_origin)
+    : probe(&lattice_probe) {
+  for (int row = 0; row < 3; ++row) {
+    origin[row] = float(relative_origin[row]);
+    for (int col = 0; col < 3; ++col) {
+      m[3 * row + col] = float(lattice_probe.pixels_from_world(row, col));
+    }
+  }
+}
+
+}  // namespace vantage::detail

@@ -1,0 +1,147 @@
+#include "lattice_scene.hpp"
+
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+
+namespace vantage::detail {
+namespace {
+
+/// Cells of a lattice, each 1 or 0.
+class CellMask {
+ public:
+  explicit CellMask(const DepthLattice& lattice)
+      : width_(int(lattice.width()) - 1),
+        height_(int(lattice.height()) - 1),
+        present_(std::size_t(width_) * std::size_t(height_)) {
+    for (int j = 0; j < height_; ++j) {
+      for (int i = 0; i < width_; ++i) {
+        present_[at(i, j)] = lattice.has_cell(std::size_t(i), std::size_t(j));
+      }
+    }
+  }
+
+  int width() const { return width_; }
+  int height() const { return height_; }
+  bool has(int i, int j) const {
+    return i >= 0 && j >= 0 && i < width_ && j < height_ && present_[at(i, j)] != 0;
+  }
+  void take(int i, int j) { present_[at(i, j)] = 0; }
+
+ private:
+  std::size_t at(int i, int j) const {
+    return std::size_t(j) * std::size_t(width_) + std::size_t(i);
+  }
+  int width_, height_;
+  std::vector<std::uint8_t> present_;
+};
+
+/// Takes the longest run of cells to the right of (i, j), and as many like it below as there are.
+RTCGrid take_rectangle(CellMask& cells, int i, int j) {
+  int right = i, bottom = j;
+  while (cells.has(right, j)) ++right;
+  const auto is_full = [&](int row) {
+    for (int column = i; column < right; ++column) {
+      if (!cells.has(column, row)) return false;
+    }
+    return true;
+  };
+  while (is_full(bottom)) {
+    for (int column = i; column < right; ++column) cells.take(column, bottom);
+    ++bottom;
+  }
+  const unsigned stride = unsigned(cells.width()) + 1;
+  return {unsigned(j) * stride + unsigned(i), stride, std::uint16_t(right - i + 1),
+          std::uint16_t(bottom - j + 1)};
+}
+
+template <class Item>
+void fill(const EmbreeDevice& device, RTCGeometry geometry, RTCBufferType type, RTCFormat format,
+          const std::vector<Item>& items) {
+  void* buffer = rtcSetNewGeometryBuffer(geometry, type, 0, format, sizeof(Item), items.size());
+  device.check();
+  std::memcpy(buffer, items.data(), items.size() * sizeof(Item));
+}
+
+/// Gives the scene a geometry on the vertices in `buffer`.
+template <class Item>
+void attach(const EmbreeDevice& device, RTCScene scene, RTCGeometryType type, RTCBuffer buffer,
+            std::size_t vertex_count, unsigned mask, RTCBufferType item_type, RTCFormat format,
+            const std::vector<Item>& items) {
+  if (items.empty()) return;
+  RTCGeometry geometry = rtcNewGeometry(device, type);
+  rtcSetGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, buffer, 0,
+                       sizeof(Eigen::Vector3f), vertex_count);
+  fill(device, geometry, item_type, format, items);
+  rtcSetGeometryMask(geometry, mask);
+  rtcCommitGeometry(geometry);
+  rtcAttachGeometry(scene, geometry);
+  rtcReleaseGeometry(geometry);
+  device.check();
+}
+
+}  // namespace
+
+std::vector<Eigen::Vector3f> lattice_vertices(const DepthLattice& lattice) {
+  const Intrinsics& k = lattice.camera.intrinsics();
+  const Eigen::Matrix3d& R = lattice.camera.T_world_cam().rotation();
+  const Eigen::Vector3d& centre = lattice.camera.centre();
+  std::vector<Eigen::Vector3f> vertices(lattice.depth.size() + 1, centre.cast<float>());
+  for (std::size_t j = 0, at = 0; j < lattice.height(); ++j) {
+    const Eigen::Vector3d row = R.col(2) + R.col(1) * ((double(lattice.rows[j]) - k.cy) / k.fy);
+    for (std::size_t i = 0; i < lattice.width(); ++i, ++at) {
+      const double depth = double(lattice.depth[at]);
+      if (std::isnan(depth)) continue;
+      const double x = (double(lattice.columns[i]) - k.cx) / k.fx;
+      vertices[at] = (centre + depth * (row + R.col(0) * x)).cast<float>();
+    }
+  }
+  return vertices;
+}
+
+std::vector<RTCGrid> present_rectangles(const DepthLattice& lattice) {
+  CellMask cells(lattice);
+  std::vector<RTCGrid> rectangles;
+  for (int j = 0; j < cells.height(); ++j) {
+    for (int i = 0; i < cells.width(); ++i) {
+      if (cells.has(i, j)) rectangles.push_back(take_rectangle(cells, i, j));
+    }
+  }
+  return rectangles;
+}
+
+std::vector<Triangle> border_triangles(const DepthLattice& lattice) {
+  const CellMask cells(lattice);
+  const auto width = std::uint32_t(lattice.width()), apex = std::uint32_t(lattice.depth.size());
+  std::vector<Triangle> triangles;
+  for (int j = 0; j < cells.height(); ++j) {
+    for (int i = 0; i < cells.width(); ++i) {
+      if (!cells.has(i, j)) continue;
+      const std::uint32_t a = std::uint32_t(j) * width + std::uint32_t(i), b = a + 1, c = b + width,
+                          d = a + width;  // clockwise on screen
+      if (!cells.has(i, j - 1)) triangles.push_back({b, a, apex});
+      if (!cells.has(i + 1, j)) triangles.push_back({c, b, apex});
+      if (!cells.has(i, j + 1)) triangles.push_back({d, c, apex});
+      if (!cells.has(i - 1, j)) triangles.push_back({a, d, apex});
+    }
+  }
+  return triangles;
+}
+
+LatticeScene::LatticeScene(const EmbreeDevice& device, const DepthLattice& lattice,
+                           const std::vector<Eigen::Vector3f>& vertices)
+    : scene_(rtcNewScene(device)) {
+  // One more than there are: Embree reads sixteen bytes at the last one.
+  const std::size_t bytes = vertices.size() * sizeof(Eigen::Vector3f);
+  RTCBuffer buffer = rtcNewBuffer(device, bytes + sizeof(Eigen::Vector3f));
+  device.check();
+  std::memcpy(rtcGetBufferData(buffer), vertices.data(), bytes);
+  attach(device, scene_.get(), RTC_GEOMETRY_TYPE_GRID, buffer, vertices.size(), kCellsMask,
+         RTC_BUFFER_TYPE_GRID, RTC_FORMAT_GRID, present_rectangles(lattice));
+  attach(device, scene_.get(), RTC_GEOMETRY_TYPE_TRIANGLE, buffer, vertices.size(), kBordersMask,
+         RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT3, border_triangles(lattice));
+  rtcReleaseBuffer(buffer);
+  commit_scene(device, scene_.get());
+}
+
+}  // namespace vantage::detail

@@ -1,0 +1,138 @@
+#include "vantage/raycore/seen_space.hpp"
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "batch.hpp"
+#include "lattice_probe.hpp"
+#include "lattice_scene.hpp"
+#include "packet.hpp"
+#include "seen_walk.hpp"
+#include "tile_rays.hpp"
+#include "vantage/raycore/error.hpp"
+
+namespace vantage {
+namespace {
+
+/// Layers thinner than this part of the coordinates on the way may be taken for seen.
+constexpr double kThinnest = 1e-5;
+
+/// A lattice's volume: where it ends, and whether a point is in it.
+struct SeenVolume {
+  detail::LatticeProbe probe;
+  detail::LatticeScene scene;
+  Eigen::Vector3f apex;
+  double reach;  ///< the largest coordinate
+};
+
+double reach_of(const Box& box) {
+  return box.min().cwiseAbs().cwiseMax(box.max().cwiseAbs()).maxCoeff();
+}
+
+/// The largest coordinate; infinite if one is no number.
+double reach_of(const std::vector<Eigen::Vector3f>& points) {
+  float reach = 0;
+  for (const Eigen::Vector3f& p : points) {
+    for (const float x : {p.x(), p.y(), p.z()}) {
+      if (!(std::abs(x) <= reach)) reach = std::abs(x);
+      if (std::isnan(x)) return std::numeric_limits<double>::infinity();
+    }
+  }
+  return double(reach);
+}
+
+void check_reach(double reach, const std::string& where) {
+  if (reach <= double(detail::kFarthestCoordinate)) return;
+  throw bad_input(where, fmt::format("it reaches {:g} m from the origin; expected 1e9 m at most "
+                                     "(is the unit right?)",
+                                     reach));
+}
+
+std::string name_of(std::size_t lattice) {
+  return fmt::format("depth lattice {}", lattice);
+}
+
+}  // namespace
+
+struct SeenSpace::Impl {
+  Box box;
+  detail::EmbreeDevice device;
+  std::vector<std::unique_ptr<const SeenVolume>> volumes;  // in the lattices' order
+
+  explicit Impl(const Box& seen_box) : box(seen_box) {}
+
+  detail::WalkJob job(const PinholeCamera& camera) const {
+    const Eigen::Vector3f origin = camera.centre().cast<float>();
+    const Eigen::Vector3d from = origin.cast<double>();
+    const double reach = std::max(reach_of(box), from.cwiseAbs().maxCoeff());
+    detail::WalkJob job;
+    for (int axis = 0; axis < 3; ++axis) {
+      job.origin[axis] = origin[axis];
+      job.box_min[axis] = float(box.min()[axis] - from[axis]);
+      job.box_max[axis] = float(box.max()[axis] - from[axis]);
+    }
+    job.t_far = float(camera.range().far_m);
+    job.step = float(kThinnest * reach);
+    for (std::size_t i = 0; i < volumes.size(); ++i) {
+      const SeenVolume& volume = *volumes[i];
+      const Eigen::Vector3d apex = volume.apex.cast<double>() - from;
+      const double step = kThinnest * std::max(reach, volume.reach);
+      // Rays from its apex lie in a border's plane or pass it by; in float they might cross it.
+      const bool at_apex = apex.cwiseAbs().maxCoeff() <= 0.1 * step;
+      job.volumes.push_back({detail::ProbeView(volume.probe, -apex),
+                             volume.scene.get(),
+                             {float(apex.x()), float(apex.y()), float(apex.z())},
+                             float(step),
+                             at_apex ? detail::kCellsMask : detail::kAllMasks,
+                             std::uint32_t(i)});
+    }
+    return job;
+  }
+};
+
+SeenSpace::SeenSpace(std::span<const DepthLattice> lattices, const Box& box)
+    : impl_(std::make_unique<Impl>(box)) {
+  check_reach(reach_of(box), "box");
+  const std::size_t count = lattices.size();
+  std::vector<std::vector<Eigen::Vector3f>> vertices(count);
+  std::vector<double> reaches(count);
+  for (std::size_t i = 0; i < count; ++i) lattices[i].check(name_of(i));
+  tbb::parallel_for(std::size_t(0), count, [&](std::size_t i) {
+    vertices[i] = detail::lattice_vertices(lattices[i]);
+    reaches[i] = reach_of(vertices[i]);
+  });
+  for (std::size_t i = 0; i < count; ++i) check_reach(reaches[i], name_of(i));
+  impl_->volumes.resize(count);
+  tbb::parallel_for(std::size_t(0), count, [&](std::size_t i) {
+    const DepthLattice& lattice = lattices[i];
+    impl_->volumes[i].reset(new SeenVolume{detail::LatticeProbe(lattice),
+                                           {impl_->device, lattice, vertices[i]},
+                                           vertices[i].back(),
+                                           reaches[i]});
+  });
+}
+
+SeenSpace::~SeenSpace() = default;
+
+const Box& SeenSpace::box() const noexcept {
+  return impl_->box;
+}
+
+std::size_t SeenSpace::lattice_count() const noexcept {
+  return impl_->volumes.size();
+}
+
+void SeenSpace::first_unseen(const PinholeCamera& camera, std::span<const PixelTile> tiles,
+                             std::span<UnseenHits> hits) const {
+  detail::check_batch_size("the array of hits", hits.size(), tiles.size());
+  detail::check_tiles(camera);
+  detail::walk_tiles(impl_->job(camera), camera, tiles, hits.data());
+}
+
+}  // namespace vantage

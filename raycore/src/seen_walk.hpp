@@ -1,0 +1,37 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <span>
+#include <vector>
+
+#include "embree.hpp"
+#include "lattice_probe.hpp"
+#include "vantage/raycore/box.hpp"
+#include "vantage/raycore/camera.hpp"
+#include "vantage/raycore/seen_space.hpp"
+
+namespace vantage::detail {
+
+/// A lattice's volume as a walk from one origin needs it.
+struct WalkVolume {
+  ProbeView probe;
+  RTCScene scene;
+  float apex[3];        ///< the lattice's camera, relative to the rays' origin
+  float step;           ///< what is thinner than this may be taken for seen
+  unsigned mask;        ///< of its surface's parts that the rays can cross
+  std::uint32_t index;  ///< of the lattice
+};
+
+/// What all walks from one camera share.
+struct WalkJob {
+  std::vector<WalkVolume> volumes;
+  float origin[3];
+  float box_min[3], box_max[3];  ///< relative to the origin
+  float t_far;
+  float step;  ///< as a volume's, for the box
+};
+
+void walk_tiles(const WalkJob& job, const PinholeCamera& camera, std::span<const PixelTile> tiles,
+                UnseenHits* hits);
+
+}  // namespace vantage::detail
