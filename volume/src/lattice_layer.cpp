@@ -1,5 +1,6 @@
 #include "lattice_layer.hpp"
 
+#include <algorithm>
 #include <cstring>
 
 #include "vantage/raycore/multiversion.hpp"
@@ -7,77 +8,106 @@
 namespace vantage::detail {
 namespace {
 
-/// One axis as the kernels need it.
-struct AxisArrays {
-  const double* vertices;
-  const double* per_cell;
-  const std::int32_t* starts;
-  double length;
-  std::int32_t last_cell;
-  int steps;
-
-  explicit AxisArrays(const LatticeAxis& axis)
-      : vertices(axis.vertices.data()),
-        per_cell(axis.per_cell.data()),
-        starts(axis.starts.data()),
-        length(axis.length),
-        last_cell(axis.cells() - 1),
-        steps(axis.steps) {}
+/// A number for each voxel of a layer.
+struct alignas(64) LayerNumbers {
+  double at[kLayerVoxels];
 };
 
 struct LayerPixels {
-  alignas(64) double u[kLayerVoxels], v[kLayerVoxels], inverse[kLayerVoxels];  ///< 1 / depth
+  LayerNumbers u, v, inverse;  ///< 1 / depth
+};
+
+/// Where along an axis a layer's voxels are: the cell, its start and 1 / its length.
+struct LayerPlaces {
+  LayerNumbers cell, start, per_cell;
+};
+
+/// 1 / depth at the corners of the voxels' cells.
+struct LayerCorners {
+  LayerNumbers d00, d10, d01, d11;
 };
 
 VANTAGE_MULTIVERSION
-void project_layer(const LayerOnImage& layer, LayerPixels& pixels) {
+void project_kernel(const LayerOnImage& layer, double* __restrict u, double* __restrict v,
+                    double* __restrict inverse) {
   for (int n = 0; n < kLayerVoxels; ++n) {
     const double y = n >> 3, z = n & 7;
     const double uz = layer.first[0] + y * layer.step_y[0] + z * layer.step_z[0];
     const double vz = layer.first[1] + y * layer.step_y[1] + z * layer.step_z[1];
     const double depth = layer.first[2] + y * layer.step_y[2] + z * layer.step_z[2];
-    pixels.inverse[n] = 1 / depth;
-    pixels.u[n] = uz * pixels.inverse[n];
-    pixels.v[n] = vz * pixels.inverse[n];
+    inverse[n] = 1 / depth;
+    u[n] = uz * inverse[n];
+    v[n] = vz * inverse[n];
   }
 }
 
-/// `LatticeAxis::cell` for a layer; NaN goes to the first one.
+/// Moves those to a cell that are at its start or beyond.
 VANTAGE_MULTIVERSION
-void find_cells(const AxisArrays& axis, const double* __restrict at,
-                std::int32_t* __restrict cell) {
+void move_kernel(double to_cell, double to_start, double to_per_cell, const double* __restrict at,
+                 double* __restrict cell, double* __restrict start, double* __restrict per_cell) {
   for (int n = 0; n < kLayerVoxels; ++n) {
-    const double above = at[n] > 0 ? at[n] : 0;
-    cell[n] = axis.starts[std::int32_t(above < axis.length ? above : axis.length)];
-  }
-  for (int step = 0; step < axis.steps; ++step) {
-    for (int n = 0; n < kLayerVoxels; ++n) {
-      const bool beyond = (axis.vertices[cell[n] + 1] <= at[n]) & (cell[n] < axis.last_cell);
-      cell[n] += std::int32_t(beyond);
-    }
+    const bool beyond = at[n] >= to_start;
+    const double old_cell = cell[n], old_start = start[n], old_per_cell = per_cell[n];
+    cell[n] = beyond ? to_cell : old_cell;
+    start[n] = beyond ? to_start : old_start;
+    per_cell[n] = beyond ? to_per_cell : old_per_cell;
   }
 }
 
-/// An unknown depth makes the surface NaN, which nothing is in front of.
-VANTAGE_MULTIVERSION
-void compare_kernel(const AxisArrays& columns, const AxisArrays& rows,
-                    const double* __restrict depth, const LayerPixels& pixels,
-                    const std::int32_t* __restrict column, const std::int32_t* __restrict row,
-                    std::uint8_t* __restrict covered, std::uint8_t* __restrict seen) {
-  const std::int32_t width = columns.last_cell + 2;
+/// Cells by counting the vertices that a voxel is beyond: there are few, and nothing to look up.
+void find_places(const LatticeAxis& axis, int first, int last, const LayerNumbers& at,
+                 LayerPlaces& places) {
+  const auto start = [&](int cell) { return axis.vertices[std::size_t(cell)]; };
+  const auto per_cell = [&](int cell) { return axis.per_cell[std::size_t(cell)]; };
+  std::fill_n(places.cell.at, kLayerVoxels, double(first));
+  std::fill_n(places.start.at, kLayerVoxels, start(first));
+  std::fill_n(places.per_cell.at, kLayerVoxels, per_cell(first));
+  for (int cell = first + 1; cell <= last; ++cell) {
+    move_kernel(cell, start(cell), per_cell(cell), at.at, places.cell.at, places.start.at,
+                places.per_cell.at);
+  }
+}
+
+void gather_corners(const LayerPlaces& columns, const LayerPlaces& rows, std::size_t width,
+                    const double* inverse_depth, LayerCorners& corners) {
   for (int n = 0; n < kLayerVoxels; ++n) {
-    const double u = pixels.u[n], v = pixels.v[n];
-    const double x = (u - columns.vertices[column[n]]) * columns.per_cell[column[n]];
-    const double y = (v - rows.vertices[row[n]]) * rows.per_cell[row[n]];
-    const std::int32_t at = row[n] * width + column[n];
-    const double d00 = depth[at], d10 = depth[at + 1];
-    const double d01 = depth[at + width], d11 = depth[at + width + 1];
+    const double* const upper =
+        inverse_depth + std::size_t(rows.cell.at[n]) * width + std::size_t(columns.cell.at[n]);
+    const double* const lower = upper + width;
+    corners.d00.at[n] = upper[0], corners.d10.at[n] = upper[1];
+    corners.d01.at[n] = lower[0], corners.d11.at[n] = lower[1];
+  }
+}
+
+/// The surface's 1 / depth; NaN if one of the four is unknown.
+VANTAGE_MULTIVERSION
+void surface_kernel(const LayerPixels& pixels, const LayerPlaces& columns, const LayerPlaces& rows,
+                    const LayerCorners& d, double* __restrict surface) {
+  for (int n = 0; n < kLayerVoxels; ++n) {
+    const double x = (pixels.u.at[n] - columns.start.at[n]) * columns.per_cell.at[n];
+    const double y = (pixels.v.at[n] - rows.start.at[n]) * rows.per_cell.at[n];
+    const double d00 = d.d00.at[n], d10 = d.d10.at[n], d01 = d.d01.at[n], d11 = d.d11.at[n];
     const double low = d00 + x * (d10 - d00) + y * (d01 - d00) + 0 * d11;
     const double high = d11 + (1 - x) * (d01 - d11) + (1 - y) * (d10 - d11) + 0 * d00;
-    const bool inside =
-        (pixels.inverse[n] > 0) & (u >= 0) & (u <= columns.length) & (v >= 0) & (v <= rows.length);
+    surface[n] = x + y <= 1 ? low : high;
+  }
+}
+
+/// Where the lattice ends, from 0.
+struct Rectangle {
+  double width, height;
+};
+
+VANTAGE_MULTIVERSION
+void compare_kernel(const Rectangle& rectangle, const double* __restrict u,
+                    const double* __restrict v, const double* __restrict inverse,
+                    const double* __restrict surface, std::uint8_t* __restrict covered,
+                    std::uint8_t* __restrict seen) {
+  for (int n = 0; n < kLayerVoxels; ++n) {
+    const bool inside = (inverse[n] > 0) & (u[n] >= 0) & (u[n] <= rectangle.width) & (v[n] >= 0) &
+                        (v[n] <= rectangle.height);
     covered[n] = std::uint8_t(inside);
-    seen[n] = std::uint8_t(inside & (pixels.inverse[n] > (x + y <= 1 ? low : high)));
+    seen[n] = std::uint8_t(inside & (inverse[n] > surface[n]));
   }
 }
 
@@ -96,15 +126,20 @@ std::uint64_t to_bits(const std::uint8_t (&flags)[kLayerVoxels]) {
 }  // namespace
 
 LayerSeen compare_layer(const LatticeAxis& columns, const LatticeAxis& rows,
-                        const double* inverse_depth, const LayerOnImage& layer) {
-  const AxisArrays u_axis(columns), v_axis(rows);
+                        const LatticeCells& cells, const double* inverse_depth,
+                        const LayerOnImage& layer) {
   LayerPixels pixels;
-  project_layer(layer, pixels);
-  alignas(64) std::int32_t column[kLayerVoxels], row[kLayerVoxels];
-  find_cells(u_axis, pixels.u, column);
-  find_cells(v_axis, pixels.v, row);
+  project_kernel(layer, pixels.u.at, pixels.v.at, pixels.inverse.at);
+  LayerPlaces column, row;
+  find_places(columns, cells.i0, cells.i1, pixels.u, column);
+  find_places(rows, cells.j0, cells.j1, pixels.v, row);
+  LayerCorners corners;
+  gather_corners(column, row, columns.vertices.size(), inverse_depth, corners);
+  LayerNumbers surface;
+  surface_kernel(pixels, column, row, corners, surface.at);
   alignas(64) std::uint8_t covered[kLayerVoxels], seen[kLayerVoxels];
-  compare_kernel(u_axis, v_axis, inverse_depth, pixels, column, row, covered, seen);
+  compare_kernel({columns.length, rows.length}, pixels.u.at, pixels.v.at, pixels.inverse.at,
+                 surface.at, covered, seen);
   return {to_bits(covered), to_bits(seen)};
 }
 

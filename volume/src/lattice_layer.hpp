@@ -23,8 +23,16 @@ struct LayerSeen {
   std::uint64_t seen;     ///< and in front of its surface, as `DepthLattice::sees` has it
 };
 
+/// Cells [i0, i1] × [j0, j1] of a lattice.
+struct LatticeCells {
+  int i0, i1, j0, j1;
+  int count() const { return (i1 - i0 + 1) * (j1 - j0 + 1); }
+};
+
+/// @param cells hold every centre that is in the lattice's rectangle.
 /// @param inverse_depth 1 / depth by vertex, row by row; NaN where it is unknown.
 LayerSeen compare_layer(const LatticeAxis& columns, const LatticeAxis& rows,
-                        const double* inverse_depth, const LayerOnImage& layer);
+                        const LatticeCells& cells, const double* inverse_depth,
+                        const LayerOnImage& layer);
 
 }  // namespace vantage::detail

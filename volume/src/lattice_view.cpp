@@ -4,8 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "lattice_layer.hpp"
-
 namespace vantage::detail {
 namespace {
 
@@ -103,8 +101,7 @@ RangeSeen LatticeView::ask(const CellRange& blocks) const {
   if (rect.u0 >= 0 && rect.u1 <= columns_.length && rect.v0 >= 0 && rect.v1 <= rows_.length) {
     answer.covered = true;
   }
-  const Cells c{columns_.cell(rect.u0), columns_.cell(rect.u1), rows_.cell(rect.v0),
-                rows_.cell(rect.v1)};
+  const LatticeCells c = cells_under(rect);
   if (box.z_min > -double(negative_farthest_.min_over(c.i0, c.i1, c.j0, c.j1))) {
     answer.seen = false;
   } else if (box.z_max < double(nearest_.min_over(c.i0, c.i1, c.j0, c.j1))) {
@@ -117,9 +114,13 @@ RangeSeen LatticeView::ask(const CellRange& blocks) const {
   return answer;
 }
 
+LatticeCells LatticeView::cells_under(const ImageRect& rect) const {
+  return {columns_.cell(rect.u0), columns_.cell(rect.u1), rows_.cell(rect.v0), rows_.cell(rect.v1)};
+}
+
 /// Planes in inverse depth are planes in space: the box is in front of the surface if it is in
 /// front of the planes of all cells that it may fall on.
-std::optional<bool> LatticeView::ask_planes(const Cells& cells, const Extent& box,
+std::optional<bool> LatticeView::ask_planes(const LatticeCells& cells, const Extent& box,
                                             double margin_m) const {
   const Eigen::Vector3d half = box.half.array() + margin_m;
   const BoxOnImage on_image{image_grid_ * (box.centre - camera_.centre()),
@@ -161,11 +162,15 @@ bool LatticeView::planes_of_cell(int i, int j, Eigen::Vector3d (&planes)[2]) con
 
 BlockSeen LatticeView::compare(const Eigen::Vector3i& block) const {
   const double size = frame_.voxel_size_m;
+  const Extent extent =
+      frame_.extent_of_centres({kBlockSide * block, kBlockSide * (block.array() + 1)});
+  const LatticeCells cells =
+      cells_under(projector_.project(extent, projector_.margin_m(extent)).rect);
   BlockSeen result;
   for (int x = 0; x < kBlockSide; ++x) {
     const Eigen::Vector3d voxel = (kBlockSide * block + Eigen::Vector3i(x, 0, 0)).cast<double>();
     const Eigen::Vector3d first = size * (voxel + Eigen::Vector3d::Constant(0.5));
-    const LayerSeen layer = compare_layer(columns_, rows_, inverse_.data(),
+    const LayerSeen layer = compare_layer(columns_, rows_, cells, inverse_.data(),
                                           {image_grid_ * (first - camera_.centre()),
                                            size * image_grid_.col(1), size * image_grid_.col(2)});
     result.covered.words[std::size_t(x)] = layer.covered;

@@ -6,6 +6,7 @@
 
 #include "grid_frame.hpp"
 #include "lattice_axis.hpp"
+#include "lattice_layer.hpp"
 #include "min_pyramid.hpp"
 #include "vantage/raycore/box_projector.hpp"
 #include "vantage/raycore/depth_lattice.hpp"
@@ -37,15 +38,12 @@ class LatticeView {
   BlockSeen compare(const Eigen::Vector3i& block) const;
 
  private:
-  /// Cells [i0, i1] × [j0, j1].
-  struct Cells {
-    int i0, i1, j0, j1;
-    int count() const { return (i1 - i0 + 1) * (j1 - j0 + 1); }
-  };
   struct BoxOnImage;
 
   void build_pyramids(const DepthLattice& lattice);
-  std::optional<bool> ask_planes(const Cells& cells, const Extent& box, double margin_m) const;
+  LatticeCells cells_under(const ImageRect& rect) const;
+  std::optional<bool> ask_planes(const LatticeCells& cells, const Extent& box,
+                                 double margin_m) const;
   bool planes_of_cell(int i, int j, Eigen::Vector3d (&planes)[2]) const;
 
   const GridFrame& frame_;

@@ -15,7 +15,9 @@ namespace vantage {
 
 /// Sorts every voxel by what depth lattices saw through, and nothing else: occupied if its centre
 /// is inside an object or a static structure of `known`, as `classify` has it; free if a lattice
-/// sees its centre; shadow otherwise ("solid or shadow", thesis 7.4.3).
+/// sees its centre, as `DepthLattice::sees` says but for rounding; shadow otherwise ("solid or
+/// shadow", thesis 7.4.3), and `unseen` shadow in no lattice's rectangle of pixels. Objects that
+/// lattices see through are in the report's conflicts.
 ///
 /// Runs in the caller's task arena; the result is the same at any number of threads.
 /// @param known its cameras play no part.
