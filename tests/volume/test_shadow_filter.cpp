@@ -1,0 +1,142 @@
+#include <doctest/doctest.h>
+#include <tbb/global_control.h>
+#include <tbb/task_arena.h>
+
+#include <cmath>
+#include <limits>
+
+#include "support/expect_error.hpp"
+#include "vantage/volume/shadow_filter.hpp"
+#include "vantage/volume/shadow_regions.hpp"
+#include "volume/make_grid.hpp"
+
+namespace vantage {
+namespace {
+
+using test::ball;
+using test::box;
+using test::geometry_of;
+using test::make_grid;
+using test::shadow_where;
+
+/// Whether a cube around some voxel near `voxel` holds it and is all shadow.
+bool fits(const StateGrid& grid, const Eigen::Vector3i& voxel, int radius) {
+  const auto all_shadow = [&](const Eigen::Vector3i& centre) {
+    for (int i = -radius; i <= radius; ++i)
+      for (int j = -radius; j <= radius; ++j)
+        for (int k = -radius; k <= radius; ++k)
+          if (grid.at(centre + Eigen::Vector3i(i, j, k)) != VoxelState::shadow) return false;
+    return true;
+  };
+  for (int i = -radius; i <= radius; ++i)
+    for (int j = -radius; j <= radius; ++j)
+      for (int k = -radius; k <= radius; ++k)
+        if (all_shadow(voxel + Eigen::Vector3i(i, j, k))) return true;
+  return false;
+}
+
+/// Checks every voxel of a filtered grid against `stays`, and what the grid says of itself.
+template <class Stays>
+void expect_filtered(const StateGrid& before, const StateGrid& after, const Stays& stays) {
+  std::size_t differences = 0, shadow = 0, unseen_shadow = 0;
+  test::for_each_voxel(before.geometry(), [&](const Eigen::Vector3i& voxel) {
+    const bool was_shadow = before.at(voxel) == VoxelState::shadow;
+    const bool removed = was_shadow && !stays(voxel);
+    const VoxelState expected = removed ? VoxelState::free : before.at(voxel);
+    const bool unseen = before.unseen(voxel) && !removed;
+    differences += after.at(voxel) != expected || after.unseen(voxel) != unseen ||
+                   after.measured(voxel) != before.measured(voxel);
+    shadow += expected == VoxelState::shadow;
+    unseen_shadow += expected == VoxelState::shadow && unseen;
+  });
+  CHECK(differences == 0);
+  CHECK(after.count(VoxelState::shadow) == shadow);
+  CHECK(after.count(VoxelState::free) + shadow ==
+        before.count(VoxelState::free) + before.count(VoxelState::shadow));
+  CHECK(before.report().unseen_shadow - after.report().unseen_shadow == [&] {
+    std::uint64_t gone = 0;
+    test::for_each_voxel(before.geometry(), [&](const Eigen::Vector3i& voxel) {
+      gone += before.at(voxel) == VoxelState::shadow && before.unseen(voxel) &&
+              after.at(voxel) == VoxelState::free;
+    });
+    return gone;
+  }());
+}
+
+/// Mostly uniform blocks, and slivers, balls and single voxels of shadow.
+std::shared_ptr<const StateGrid> mixed_grid() {
+  const auto noise = test::random_voxels(11);
+  return make_grid(geometry_of(30, 27, 25), [=](const Eigen::Vector3i& v) {
+    if (box({2, 2, 0}, {28, 25, 2})(v) || ball({12, 12, 12}, 7)(v) ||
+        box({3, 3, 20}, {9, 9, 23})(v))
+      return test::MadeVoxel{VoxelState::shadow, false, v.x() < 12};
+    return v.y() > 20 ? noise(v) : test::MadeVoxel{};
+  });
+}
+
+}  // namespace
+
+TEST_CASE("opened shadow is what cubes of shadow fit around") {
+  const auto grid = mixed_grid();
+  for (const int radius : {0, 1, 2, 3}) {
+    CAPTURE(radius);
+    const auto opened = opened_shadow(*grid, radius);
+    expect_filtered(*grid, *opened,
+                    [&](const Eigen::Vector3i& voxel) { return fits(*grid, voxel, radius); });
+    CHECK((radius == 0 || opened->count(VoxelState::shadow) < grid->count(VoxelState::shadow)));
+  }
+}
+
+TEST_CASE("opening takes layers on the floor away, and leaves what is thick up to the border") {
+  const GridGeometry geometry = geometry_of(24, 24, 24);
+  const auto layer = shadow_where(geometry, box({0, 0, 0}, {24, 24, 2}));
+  CHECK(opened_shadow(*layer, 1)->count(VoxelState::shadow) == 0);
+  const auto thick = shadow_where(geometry, box({0, 0, 0}, {24, 24, 3}));
+  CHECK(opened_shadow(*thick, 1)->count(VoxelState::shadow) == 24 * 24 * 3);
+  const auto all = shadow_where(geometry, [](const Eigen::Vector3i&) { return true; });
+  CHECK(opened_shadow(*all, 4)->count(VoxelState::shadow) == geometry.voxel_count());
+}
+
+TEST_CASE("large shadow is that of the regions of at least a volume") {
+  const auto grid = mixed_grid();
+  const ShadowRegions regions(*grid);
+  REQUIRE(regions.list().size() > 5);
+  const double voxel_m3 = grid->geometry().voxel_volume_m3();
+  for (const double least_voxels : {0.0, 1.5, 50.0, 109.0, 1e6}) {
+    CAPTURE(least_voxels);
+    const auto large = large_shadow(*grid, least_voxels * voxel_m3);
+    expect_filtered(*grid, *large, [&](const Eigen::Vector3i& voxel) {
+      const auto label = std::size_t(regions.label(voxel));
+      return double(regions.list()[label - 1].voxels) >= least_voxels;
+    });
+  }
+  // The plate of 6 × 6 × 3 goes between 107 and 109 voxels.
+  const Eigen::Vector3i in_plate(4, 4, 21);
+  CHECK(large_shadow(*grid, 107.5 * voxel_m3)->at(in_plate) == VoxelState::shadow);
+  CHECK(large_shadow(*grid, 108.5 * voxel_m3)->at(in_plate) == VoxelState::free);
+}
+
+TEST_CASE("shadow filters: threads make no difference, and bad sizes are refused") {
+  const tbb::global_control allow(tbb::global_control::max_allowed_parallelism, 8);
+  const auto grid = mixed_grid();
+  const auto at_threads = [&](int threads) {
+    tbb::task_arena arena(threads);
+    return arena.execute([&] { return large_shadow(*opened_shadow(*grid, 1), 1e-4); });
+  };
+  const auto one = at_threads(1), many = at_threads(8);
+  std::size_t differences = 0;
+  test::for_each_voxel(grid->geometry(), [&](const Eigen::Vector3i& voxel) {
+    differences += one->at(voxel) != many->at(voxel);
+  });
+  CHECK(differences == 0);
+  CHECK(one->count(VoxelState::shadow) > 0);
+  for (const int bad : {-1, 65}) {
+    test::expect_bad_input("radius_voxels", "expected 0 to 64", [&] { opened_shadow(*grid, bad); });
+  }
+  for (const double bad : {-1e-9, std::nan(""), std::numeric_limits<double>::infinity()}) {
+    test::expect_bad_input("least_m3", "expected a finite volume",
+                           [&] { large_shadow(*grid, bad); });
+  }
+}
+
+}  // namespace vantage

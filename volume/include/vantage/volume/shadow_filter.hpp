@@ -1,0 +1,26 @@
+#pragma once
+
+#include <memory>
+
+#include "vantage/raycore/api.hpp"
+#include "vantage/volume/state_grid.hpp"
+
+namespace vantage {
+
+// Filters for false shadow: what a depth sensor's noise leaves unseen along the floor and along the
+// walls of objects (thesis 7.4, figure 7.10). Shadow that they remove becomes free; all else stays,
+// revealed voxels too. They run in the caller's task arena; the result is the same at any number of
+// threads.
+
+/// The morphological opening of the shadow by a cube of (2 radius + 1)³ voxels: what no such cube
+/// of shadow alone fits around goes. Around the grid there is no shadow, so that a layer on the
+/// floor is as thin as it looks.
+/// @throws Error bad_input unless 0 <= radius_voxels <= 64.
+VANTAGE_API std::shared_ptr<const StateGrid> opened_shadow(const StateGrid& grid,
+                                                           int radius_voxels);
+
+/// Removes the regions of shadow (`ShadowRegions`) that are smaller than `least_m3`.
+/// @throws Error bad_input unless `least_m3` is finite and not negative.
+VANTAGE_API std::shared_ptr<const StateGrid> large_shadow(const StateGrid& grid, double least_m3);
+
+}  // namespace vantage
