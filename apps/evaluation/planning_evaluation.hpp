@@ -17,7 +17,8 @@ struct PoseWorth {
   double true_gain_m3 = 0;  ///< truly hidden volume that it really sees
 };
 
-/// A servo iteration on the way to a pick; the first is the candidate itself.
+/// A servo iteration on the way to a pick; the first is the candidate itself, and the last is
+/// where polishing led if that is the pick.
 struct PickStep {
   std::string move;
   PoseWorth worth;
@@ -46,7 +47,8 @@ struct SetEvaluation {
   std::string set;  ///< "full" or "production"
   std::size_t views = 0, feasible = 0;
   std::vector<double> radii_m;    ///< of its half-spheres
-  double best_true_gain_m3 = 0;   ///< over all feasible views and their servo iterations
+  double best_true_gain_m3 = 0;   ///< the best known: over all feasible views and their servo
+                                  ///< iterations, polished by that gain, and over the picks
   std::vector<MethodRun> runs{};  ///< in the order of `PlanningEvaluation::methods`
 };
 
@@ -73,6 +75,7 @@ struct PlanningEvaluation {
   std::vector<std::string> methods;
   int servo_iterations = 0;
   std::vector<SceneEvaluation> scenes;
+  int polished_views = 0;  ///< so many of a method's best
 };
 
 /// A method's run in a set; null if there is none.
@@ -89,7 +92,7 @@ std::optional<double> vox_ratio(const SceneEvaluation& scene, const PoseWorth& w
 /// The median; none if it was never timed.
 std::optional<double> median_run_time_s(const MethodRun& run);
 
-/// The best true gain that the set would have had, less that of the pick; never negative.
+/// The best true gain that is known of the set, less that of the pick; never negative.
 /// None without a pick.
 std::optional<double> regret_m3(const SetEvaluation& set, const MethodRun& run);
 

@@ -14,11 +14,12 @@ void append_steps(ReportTable& table, const SceneEvaluation& scene, const Method
   table.section(fmt::format("{} (score in {}{})", run.method, run.unit, printed));
   for (std::size_t i = 0; i < run.pick->steps.size(); ++i) {
     const PickStep& step = run.pick->steps[i];
-    TableRow row{{std::to_string(i), step.move, score_text(step.worth.method_score),
+    const bool servo = step.move != "polish";
+    TableRow row{{servo ? std::to_string(i) : "–", step.move, score_text(step.worth.method_score),
                   cm3_text(step.worth.vox_score_m3), percent_text(vox_ratio(scene, step.worth)),
                   cm3_text(step.worth.true_gain_m3)},
                  i == run.pick->best_step ? RowKind::emphasis : RowKind::plain};
-    if (thesis != nullptr && i < thesis->steps.size()) {
+    if (servo && thesis != nullptr && i < thesis->steps.size()) {
       const ThesisStep& theirs = thesis->steps[i];
       row.cells.insert(row.cells.end(),
                        {score_text(theirs.method_score), thesis_cm3_text(theirs.vox_score_m3),
@@ -49,8 +50,9 @@ ReportTable servo_table(const SceneEvaluation& scene) {
     if (run.pick) append_steps(table, scene, run);
   }
   table.note =
-      "Marked: the iteration with the best method score, which is the pick. The thesis' method "
-      "scores are of its own scenes and images.";
+      "Marked: the step with the best method score, which is the pick. Polishing, which the thesis "
+      "does not have, goes on from the best iteration. The thesis' method scores are of its own "
+      "scenes and images.";
   return table;
 }
 

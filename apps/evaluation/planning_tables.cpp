@@ -12,13 +12,15 @@ namespace {
 
 constexpr const char* kNone = "–";
 
-/// "full set: 34,225 views each, servo 5"
+/// "full set, 34,225 views, servo 5, 2 polished"
 std::string set_title(const PlanningEvaluation& evaluation, const std::string& set) {
   for (const SceneEvaluation& scene : evaluation.scenes) {
     for (const SetEvaluation& one : scene.sets) {
       if (one.set != set) continue;
-      return fmt::format("{} set, {} views, servo {}", set, count_text(one.views),
-                         evaluation.servo_iterations);
+      const std::string title = fmt::format("{} set, {} views, servo {}", set,
+                                            count_text(one.views), evaluation.servo_iterations);
+      if (evaluation.polished_views == 0) return title;
+      return fmt::format("{}, {} polished", title, evaluation.polished_views);
     }
   }
   return set + " set";
@@ -108,8 +110,8 @@ ReportTable comparison_table(const PlanningEvaluation& evaluation, const std::st
       "score of the voxel method's pick" +
       std::string(full ? "" : " from the first set") +
       ". True gain: truly hidden volume that the view really sees; true regret: how much more the "
-      "best of all these views and their servo iterations would have seen. Run time: from a "
-      "classified grid to the answer.";
+      "best known would have seen: of all these views and their servo iterations, polished by "
+      "what they really see, and of the picks. Run time: from a classified grid to the answer.";
   return table;
 }
 

@@ -20,7 +20,8 @@ ReportTable comparison_table(const PlanningEvaluation& evaluation, const std::st
 /// Table 9.6: the production set against the full one. Without both, a table without rows.
 ReportTable quality_table(const PlanningEvaluation& evaluation);
 
-/// Tables 9.1 to 9.4: the servo iterations of every method's pick from the scene's first set.
+/// Tables 9.1 to 9.4: the servo iterations of every method's pick from the scene's first set, and
+/// what polishing made of it.
 ReportTable servo_table(const SceneEvaluation& scene);
 
 /// Those that an evaluation has, in the order of reading.

@@ -49,6 +49,7 @@ PlanningSettings settings_of(const PlanningArguments& arguments) {
   PlanningSettings settings = arguments.settings;
   choose(arguments.methods, arguments.sets, settings);
   settings.servo.check();
+  settings.polish.check();
   if (!arguments.occluders.empty()) settings.occluders = occluder_mode_of(arguments.occluders);
   const bool drawn = !arguments.folder.empty() && !arguments.no_pictures;
   settings.picture_width = drawn ? kPictureWidth : 0;
@@ -72,6 +73,7 @@ PlanningResult evaluate_cells(const std::vector<PlanningCell>& cells,
     result.evaluation.methods.push_back(method.name);
   }
   result.evaluation.servo_iterations = settings.servo.iterations;
+  result.evaluation.polished_views = settings.polish.views;
   for (std::size_t i = 0; i < cells.size() && !stop.stop_requested(); ++i) {
     EvaluatedScene one = evaluate_planning(cells[i], settings, stop);
     for (PagePicture& picture : one.pictures) {
@@ -94,6 +96,7 @@ Json config_json(const PlanningArguments& arguments, const PlanningSettings& set
       {"radii_m", settings.radii_m.empty() ? Json() : Json(settings.radii_m)},
       {"servo",
        {{"iterations", settings.servo.iterations}, {"image_width", settings.servo.image_width}}},
+      {"polish", {{"views", settings.polish.views}, {"image_width", settings.polish.image_width}}},
       {"voxel_size_m", settings.voxel_size_m ? Json(*settings.voxel_size_m) : Json()}};
 }
 
@@ -122,11 +125,12 @@ Json json_of(const PlanningResult& result, const PlanningArguments& arguments,
 
 std::vector<std::string> settings_text(const PlanningArguments& arguments,
                                        const PlanningSettings& settings) {
-  return {fmt::format("vantage {}, servo of {} iterations, {}, run times: {} of {}.", kVersion,
-                      settings.servo.iterations,
-                      arguments.threads > 0 ? fmt::format("{} threads", arguments.threads)
-                                            : "as many threads as the machine has",
-                      settings.repeat > 1 ? "medians" : "one run", settings.repeat)};
+  return {fmt::format(
+      "vantage {}, servo of {} iterations, {} of the best views polished, {}, run times: {} of {}.",
+      kVersion, settings.servo.iterations, settings.polish.views,
+      arguments.threads > 0 ? fmt::format("{} threads", arguments.threads)
+                            : "as many threads as the machine has",
+      settings.repeat > 1 ? "medians" : "one run", settings.repeat)};
 }
 
 void write(const PlanningArguments& arguments, const PlanningSettings& settings,
@@ -202,6 +206,12 @@ void add_method_options(CLI::App& verb, PlanningArguments& arguments) {
       ->check(CLI::PositiveNumber);
   verb.add_option("--servo", arguments.settings.servo.iterations, "Servo iterations; 0: none")
       ->check(CLI::Range(0, 100))
+      ->capture_default_str();
+  verb.add_option(
+          "--polish", arguments.settings.polish.views,
+          "So many of a method's best views are moved around the shadow and turned, as long "
+          "as that makes them better; 0: none, as in the thesis")
+      ->check(CLI::Range(0, 1000))
       ->capture_default_str();
   verb.add_option("--voxel-size", arguments.settings.voxel_size_m,
                   "Edge of a voxel, metres (default: the workcell's, else 0.009375)")

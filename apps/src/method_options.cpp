@@ -76,6 +76,11 @@ void MethodArguments::add_to(CLI::App& verb) {
   verb.add_option("--servo-width", servo_width, "Width of the images for servoing, pixels")
       ->check(CLI::Range(16, 16384))
       ->capture_default_str();
+  verb.add_option("--polish", polished_views,
+                  "So many of the best views are moved around the shadow and turned, as long as "
+                  "that makes them better; 0: none")
+      ->check(CLI::Range(0, 1000))
+      ->capture_default_str();
   verb.add_option("--ranked", ranked, "So many of the best are found for certain, in their order")
       ->check(CLI::Range(1, 1000000))
       ->capture_default_str();
@@ -88,6 +93,7 @@ void MethodArguments::apply(PlanRequest& request) const {
   request.method = method;
   request.method.mesh.visibility.noise = request.volume.noise;
   request.servo = {servo_iterations, servo_width};
+  request.polish.views = polished_views;
   request.search.ranked = ranked;
   if (!from_m.empty()) {
     request.search.travel = TravelCost{travel_weight_per_m, {from_m[0], from_m[1], from_m[2]}};

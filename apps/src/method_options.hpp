@@ -14,6 +14,7 @@ struct MethodArguments {
   MethodOptions method;
   int servo_iterations = ServoOptions().iterations;
   int servo_width = ServoOptions().image_width;
+  int polished_views = PolishOptions().views;
   int ranked = SearchOptions().ranked;
   double travel_weight_per_m = 0;
   std::vector<double> from_m;  ///< x y z; empty: not given

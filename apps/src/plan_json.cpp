@@ -96,6 +96,7 @@ Json config_of(const PlanRequest& request) {
       {"mesh", mesh_json(request.method)},
       {"servo",
        {{"iterations", request.servo.iterations}, {"image_width", request.servo.image_width}}},
+      {"polish", {{"views", request.polish.views}, {"image_width", request.polish.image_width}}},
       {"ranked", request.search.ranked},
       {"travel", travel},
       {"views",

@@ -46,15 +46,25 @@ std::string shortlist_text(const Plan& plan) {
       passed_over, plan.request.method.mesh.shortlist_voxel_m);
 }
 
+std::string origin_text(const Plan& plan, const RankedView& view) {
+  std::string text = fmt::format("candidate {} of {}", plan.candidates[view.candidate].view.id,
+                                 plan.candidates.size());
+  if (view.servo_iteration > 0) text += fmt::format(", servo iteration {}", view.servo_iteration);
+  if (!view.polish.empty()) {
+    text += fmt::format(", polished by {} step{}", view.polish.size(),
+                        view.polish.size() == 1 ? "" : "s");
+  }
+  return text;
+}
+
 std::string best_summary(const Plan& plan) {
   const RankedView& best = *plan.best();
   std::string text = fmt::format(
-      "next view  candidate {} of {}{}\n"
+      "next view  {}\n"
       "camera     {}\n"
       "reveals    {}\n",
-      plan.candidates[best.candidate].view.id, plan.candidates.size(),
-      best.servo_iteration > 0 ? fmt::format(", servo iteration {}", best.servo_iteration) : "",
-      camera_text(best.T_world_cam), reveals_text(plan, plan.views.front().revealed_voxels));
+      origin_text(plan, best), camera_text(best.T_world_cam),
+      reveals_text(plan, plan.views.front().revealed_voxels));
   if (plan.request.method.name != "voxel") {
     text += fmt::format("score      {:.6g} {} (method {})\n", plan.in_units(best.score),
                         plan.score_unit_name, plan.request.method.name);

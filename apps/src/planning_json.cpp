@@ -154,6 +154,7 @@ Json planning_to_json(const PlanningEvaluation& evaluation) {
   return {{"vantage", kVersion},
           {"methods", evaluation.methods},
           {"servo_iterations", evaluation.servo_iterations},
+          {"polished_views", evaluation.polished_views},
           {"scenes", scenes},
           {"means", means_json(evaluation)},
           {"quality", quality_json(evaluation)},

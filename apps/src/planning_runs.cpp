@@ -44,6 +44,7 @@ class SceneRun {
       : cell_(cell), settings_(settings), stop_(stop), request_(cell.request) {
     if (settings.voxel_size_m) request_.voxel_size_m = *settings.voxel_size_m;
     request_.servo = settings.servo;
+    request_.polish = settings.polish;
     if (settings.occluders) {
       request_.volume.occluders = *settings.occluders;
       request_.volume.anti_alias.reset();  // as goes with it
@@ -95,6 +96,9 @@ class SceneRun {
       if (stop_.stop_requested()) return set;
       run.unit = plan.score_unit_name;
       run.pick = pick_of(plan);
+      if (run.pick) {
+        set.best_true_gain_m3 = std::max(set.best_true_gain_m3, run.pick->worth().true_gain_m3);
+      }
       draw(plan, run, name, result.pictures);
       set.runs.push_back(run);
     }
@@ -120,10 +124,11 @@ class SceneRun {
   std::optional<Pick> pick_of(const Plan& plan) const {
     if (plan.best() == nullptr) return std::nullopt;
     const RankedView& best = *plan.best();
+    const bool polished = !best.polish.empty();
     Pick pick{plan.candidates[best.candidate].view.id,
               best.T_world_cam,
               {},
-              std::size_t(best.servo_iteration)};
+              polished ? plan.trace.size() - 1 : std::size_t(best.servo_iteration)};
     const VoxelScorer voxels(*believed_);
     for (const ScoredStep& step : plan.trace) {
       const PinholeCamera view = camera_at(step.step.T_world_cam);
@@ -135,8 +140,8 @@ class SceneRun {
     return pick;
   }
 
-  /// The best that any method could have picked: of the same views, moved by the same servo and
-  /// rejected for the same reasons, but scored by what they really see.
+  /// The best that any method could have picked: of the same views, moved by the same servo,
+  /// polished and rejected in the same way, but scored by what they really see.
   void find_best_true_gain(SetEvaluation& set) const {
     const std::vector<ViewCandidate> views =
         view_candidates(request_.candidates, request_.work_area);
@@ -155,8 +160,16 @@ class SceneRun {
     set.views = views.size();
     set.feasible = std::size_t(
         std::ranges::count(found.candidates, Rejection::none, &ScoredCandidate::rejected));
-    if (!found.ranked.empty()) {
-      set.best_true_gain_m3 = double(found.ranked.front().score) * gain->unit();
+    const ViewPolisher polisher(gain, checker, camera, believed_->middle_of_shadow(),
+                                request_.polish);
+    const auto consider = [&](const Pose& pose) {
+      set.best_true_gain_m3 = std::max(set.best_true_gain_m3, truth_->gain_m3(camera_at(pose)));
+    };
+    for (std::size_t i = 0; i < found.ranked.size(); ++i) {
+      consider(found.ranked[i].T_world_cam);
+      if (i >= std::size_t(request_.polish.views)) break;
+      const std::vector<PolishStep> steps = polisher.path(found.ranked[i].T_world_cam, stop_);
+      if (!steps.empty()) consider(steps.back().T_world_cam);
     }
   }
 

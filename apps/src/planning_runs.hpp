@@ -28,6 +28,7 @@ struct PlanningSettings {
   std::vector<double> radii_m{};     ///< of the full set's three half-spheres; the production set
                                      ///< has the first and the last. Empty: from the work area
   ServoOptions servo = {};
+  PolishOptions polish = {};
   std::optional<double> voxel_size_m{};     ///< none: the workcell's
   std::optional<OccluderMode> occluders{};  ///< none: the workcell's, as is anti-aliasing then
   int repeat = 1;                           ///< times that everything is timed

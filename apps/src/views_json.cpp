@@ -26,11 +26,23 @@ Json trace_json(const Plan& plan, const std::vector<ScoredStep>& trace) {
   return steps;
 }
 
-/// The volume that each candidate would reveal, as far as it was counted.
+Json polish_json(const RankedView& view) {
+  Json steps = Json::array();
+  for (const PolishStep& step : view.polish) {
+    steps.push_back({{"move", to_text(step.move)},
+                     {"by_rad", step.by_rad},
+                     {"T_world_cam", to_json(step.T_world_cam)}});
+  }
+  return steps;
+}
+
+/// The volume that each candidate would reveal, as far as it was counted. What a polished view
+/// reveals is not what its candidate would.
 std::map<std::size_t, double> volumes_of_ranked(const Plan& plan) {
   std::map<std::size_t, double> volumes;
   for (const RankedView& view : plan.ranked) {
-    if (view.revealed_voxels) volumes[view.candidate] = plan.volume_m3(*view.revealed_voxels);
+    if (view.revealed_voxels && view.polish.empty())
+      volumes[view.candidate] = plan.volume_m3(*view.revealed_voxels);
   }
   return volumes;
 }
@@ -45,7 +57,8 @@ Json best_json(const Plan& plan) {
           {"score", plan.in_units(best->score)},
           {"newly_observed_volume_m3", plan.volume_m3(best->revealed_voxels.value())},
           {"servo_iteration", best->servo_iteration},
-          {"servo_trace", trace_json(plan, plan.trace)}};
+          {"servo_trace", trace_json(plan, plan.trace)},
+          {"polish", polish_json(*best)}};
 }
 
 Json views_json(const Plan& plan) {
@@ -54,6 +67,7 @@ Json views_json(const Plan& plan) {
     views.push_back({{"id", id_of(plan, next.view)},
                      {"T_world_cam", to_json(next.view.T_world_cam)},
                      {"servo_iteration", next.view.servo_iteration},
+                     {"polish", polish_json(next.view)},
                      {"newly_observed_volume_m3", plan.volume_m3(next.revealed_voxels)}});
   }
   return views;
@@ -65,6 +79,7 @@ Json ranked_json(const Plan& plan) {
     ranked.push_back({{"id", id_of(plan, view)},
                       {"T_world_cam", to_json(view.T_world_cam)},
                       {"servo_iteration", view.servo_iteration},
+                      {"polish", polish_json(view)},
                       {"score", plan.in_units(view.score)},
                       {"after_travel", plan.in_units(view.utility)},
                       {"newly_observed_volume_m3", plan.volume_m3(view.revealed_voxels.value())}});

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <map>
 
-#include "planning_tools.hpp"
+#include "polish_ranked.hpp"
 #include "vantage/planner/plan.hpp"
 #include "vantage/raycore/error.hpp"
 #include "vantage/volume/shadow_regions.hpp"
@@ -44,6 +44,12 @@ std::string score_text(const Plan& plan, Score score) {
   return fmt::format("{:.6g} {}", plan.in_units(score), plan.score_unit_name);
 }
 
+constexpr const char* kPolished = " (polished)";
+
+std::string polish_text(const ScoredStep& step) {
+  return step.step.move == ServoMove::polish ? kPolished : "";
+}
+
 std::string verdict_of(const Plan& plan, const ViewExplanation& view,
                        const detail::Utility& utility) {
   if (view.rejected != Rejection::none) {
@@ -55,11 +61,12 @@ std::string verdict_of(const Plan& plan, const ViewExplanation& view,
   if (best == nullptr) return "no view reveals any shadow, nor does this one";
   const int best_id = plan.candidates[best->candidate].view.id;
   if (best_id == view.candidate.id) {
-    return fmt::format("the best of {} candidates: {}", plan.candidates.size(),
-                       score_text(plan, own));
+    return fmt::format("the best of {} candidates: {}{}", plan.candidates.size(),
+                       score_text(plan, own), polish_text(best_step));
   }
-  std::string text = fmt::format("lost: {}, and candidate {} has {}", score_text(plan, own),
-                                 best_id, score_text(plan, best->score));
+  std::string text = fmt::format("lost: {}{}, and candidate {} has {}{}", score_text(plan, own),
+                                 polish_text(best_step), best_id, score_text(plan, best->score),
+                                 best->polish.empty() ? "" : kPolished);
   const Score left = utility.of(own, utility.share(best_step.step.T_world_cam.translation()));
   if (plan.request.search.travel) {
     text += fmt::format("; after the journey {} against {}", score_text(plan, left),
@@ -84,7 +91,7 @@ ViewExplanation explain_view(const WorldModel& world, const Plan& plan, int id) 
   ViewExplanation view{.candidate = candidate.view};
   view.rejected = tools.search_tools().checker->check(candidate.view.T_world_cam);
   if (view.rejected == Rejection::none) {
-    view.trace = tools.trace(candidate.view);
+    view.trace = detail::trace(tools, plan, candidate);
     const auto worth = [&](const ScoredStep& step) {
       return utility.of(step.score.score, utility.share(step.step.T_world_cam.translation()));
     };

@@ -7,8 +7,8 @@
 #include <bit>
 
 #include "depth_weight.hpp"
-#include "image_scale.hpp"
 #include "mesh_pixels.hpp"
+#include "small_image.hpp"
 #include "tile_bounds.hpp"
 #include "vantage/raycore/box_projector.hpp"
 #include "vantage/raycore/error.hpp"
@@ -72,7 +72,7 @@ struct MeshScorer::Impl {
   PinholeCamera scored(const PinholeCamera& view) const {
     check(view);
     if (view.intrinsics().width == image_width) return view;
-    return {detail::scaled_to(view.intrinsics(), image_width), view.T_world_cam(), view.range()};
+    return {detail::scaled(view.intrinsics(), image_width), view.T_world_cam(), view.range()};
   }
 
   MeshPixels pixels(const PinholeCamera& view) const {

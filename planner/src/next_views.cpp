@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "polish_ranked.hpp"
 #include "vantage/volume/classify.hpp"
 
 namespace vantage::detail {
@@ -128,10 +129,11 @@ void add_next_views(const WorldModel& world, const PlanningTools& tools, Plan& p
         lazy ? greedy.next(left.scorer(), request.search.travel, stop)
              : best_anew(left, plan.candidates, stop);
     if (!next) break;
-    if (!worth_it(plan, left.voxels().score(tools.camera().moved_to(next->T_world_cam)).score)) {
-      return;
-    }
-    add_view(left.voxels(), tools.camera(), *next, plan);
+    std::vector<RankedView> best{*next};
+    if (!polish(left, best, stop)) break;
+    const PinholeCamera view = tools.camera().moved_to(best.front().T_world_cam);
+    if (!worth_it(plan, left.voxels().score(view).score)) return;
+    add_view(left.voxels(), tools.camera(), best.front(), plan);
   }
   if (int(plan.views.size()) < plan.request.views.most && plan.stopped == StopReason::none) {
     plan.stopped = stop.reason();

@@ -7,6 +7,7 @@
 
 #include "next_views.hpp"
 #include "planning_tools.hpp"
+#include "polish_ranked.hpp"
 #include "vantage/raycore/error.hpp"
 #include "vantage/volume/classify.hpp"
 
@@ -22,6 +23,7 @@ void check(const PlanRequest& request) {
   (void)PinholeCamera(request.intrinsics, Pose(), request.range, "movable camera");
   request.constraints.check();
   request.servo.check();
+  request.polish.check();
   request.search.check();
   request.views.check();
   request.method.check();
@@ -43,10 +45,13 @@ void search(const WorldModel& world, const std::vector<ViewCandidate>& views, Pl
   plan.finished = found.finished;
   plan.stopped = found.stopped;
   if (plan.ranked.empty()) return;
+  if (plan.stopped == StopReason::none && !detail::polish(tools, plan.ranked, stop)) {
+    plan.stopped = stop.reason();
+  }
   for (RankedView& view : plan.ranked) {
     view.revealed_voxels = tools.voxels().score(tools.camera().moved_to(view.T_world_cam)).score;
   }
-  plan.trace = tools.trace(plan.candidates[plan.ranked.front().candidate].view, stop);
+  plan.trace = detail::trace(tools, plan, plan.candidates[plan.ranked.front().candidate], stop);
   detail::add_view(tools.voxels(), tools.camera(), plan.ranked.front(), plan);
   if (plan.request.views.most > 1) detail::add_next_views(world, tools, plan, stop);
 }

@@ -16,11 +16,10 @@ struct ServoSight {
 };
 
 /// The servo's view may be the scorer itself.
-ServoSight servo_sight(const std::shared_ptr<const ViewScorer>& scorer, const PlanningScene& scene,
-                       const DepthRange& range) {
-  auto view = std::dynamic_pointer_cast<const ShadowView>(scorer);
-  if (view == nullptr) view = std::make_shared<const ShadowScorer>(scene, range, 0);
-  return {std::move(view), scene.middle_of_shadow()};
+std::shared_ptr<const ShadowView> servo_view(const std::shared_ptr<const ViewScorer>& scorer,
+                                             const PlanningScene& scene, const DepthRange& range) {
+  if (auto view = std::dynamic_pointer_cast<const ShadowView>(scorer)) return view;
+  return std::make_shared<const ShadowScorer>(scene, range, 0);
 }
 
 }  // namespace
@@ -31,7 +30,8 @@ PlanningTools::PlanningTools(const WorldModel& world, const PlanningScene& scene
       shortlist_(std::max(request.method.mesh.shortlist, request.search.ranked)),
       tools_{nullptr, nullptr, nullptr,
              PinholeCamera(request.intrinsics, Pose(), request.range, "movable camera"),
-             Utility(request.search.travel)} {
+             Utility(request.search.travel)},
+      polished_views_(std::size_t(request.polish.views)) {
   ServoSight sight;
   if (request.method.name == "mesh") {
     const std::size_t views = candidates * std::size_t(request.servo.iterations + 1);
@@ -42,14 +42,21 @@ PlanningTools::PlanningTools(const WorldModel& world, const PlanningScene& scene
     if (mesh.cheap != nullptr) sight.view = mesh.cheap;
   } else {
     tools_.scorer = make_view_scorer(request.method, scene, world, request.range);
-    if (request.servo.iterations > 0) sight = servo_sight(tools_.scorer, scene, request.range);
+    sight.centre = scene.middle_of_shadow();
+    if (request.servo.iterations > 0) sight.view = servo_view(tools_.scorer, scene, request.range);
   }
   tools_.checker = std::make_shared<const ViewChecker>(request.constraints, scene, request.range);
   voxels_ = std::dynamic_pointer_cast<const VoxelScorer>(tools_.scorer);
   if (voxels_ == nullptr) voxels_ = std::make_shared<const VoxelScorer>(scene);
-  if (request.servo.iterations == 0) return;
-  tools_.servo = std::make_shared<const ServoRefiner>(sight.view, tools_.checker, tools_.camera,
-                                                      sight.centre, request.servo);
+  if (request.servo.iterations > 0) {
+    tools_.servo = std::make_shared<const ServoRefiner>(sight.view, tools_.checker, tools_.camera,
+                                                        sight.centre, request.servo);
+  }
+  if (request.polish.views > 0) {
+    polisher_ =
+        std::make_shared<const ViewPolisher>(tools_.scorer, tools_.checker, tools_.camera,
+                                             sight.centre, request.polish, request.search.travel);
+  }
 }
 
 SearchResult PlanningTools::search(std::span<const ViewCandidate> candidates,

@@ -34,6 +34,8 @@ class PlanningTools {
 
   /// As `ViewSearch::trace` does.
   std::vector<ScoredStep> trace(const ViewCandidate& candidate, const StopToken& stop = {}) const;
+  const ViewPolisher* polisher() const { return polisher_.get(); }  ///< null: nothing is polished
+  std::size_t polished_views() const { return polished_views_; }
 
  private:
   ViewSearch search_by(std::shared_ptr<const ViewScorer> scorer, int ranked) const;
@@ -43,6 +45,8 @@ class PlanningTools {
   std::shared_ptr<const VoxelScorer> voxels_;
   std::shared_ptr<const ViewScorer> cheap_;  ///< null: no shortlist
   SearchTools tools_;
+  std::size_t polished_views_;
+  std::shared_ptr<const ViewPolisher> polisher_;
 };
 
 }  // namespace vantage::detail

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "image_scale.hpp"
+#include "small_image.hpp"
 #include "vantage/raycore/error.hpp"
 
 namespace vantage {
@@ -71,6 +71,8 @@ std::string_view to_text(ServoMove move) {
       return "back";
     case ServoMove::closer:
       return "closer";
+    case ServoMove::polish:
+      return "polish";
   }
   return "";
 }
@@ -80,8 +82,8 @@ ServoRefiner::ServoRefiner(std::shared_ptr<const ShadowView> view,
                            const Eigen::Vector3d& shadow_centre, const ServoOptions& options)
     : view_(std::move(view)),
       checker_(std::move(checker)),
-      camera_((options.check(), detail::scaled_to(camera.intrinsics(), options.image_width)),
-              Pose(), camera.range(), "servo camera"),
+      camera_((options.check(), detail::scaled(camera.intrinsics(), options.image_width)), Pose(),
+              camera.range(), "servo camera"),
       shadow_centre_(shadow_centre),
       options_(options) {}
 

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
-#include <cmath>
+#include <algorithm>
 
 #include "ranking.hpp"
 #include "site.hpp"
@@ -23,13 +23,6 @@ constexpr std::size_t kLargestChunkViews = 8192;
 constexpr std::size_t kBatchSites = 16;
 
 }  // namespace
-
-void TravelCost::check() const {
-  if (from_m.allFinite() && std::isfinite(weight_per_m) && weight_per_m >= 0) return;
-  throw bad_input("travel", fmt::format("weight {} per metre from [{}, {}, {}]; expected finite "
-                                        "numbers, and a weight that is not negative",
-                                        weight_per_m, from_m.x(), from_m.y(), from_m.z()));
-}
 
 void SearchOptions::check() const {
   if (ranked < 1) {

@@ -10,6 +10,7 @@
 #include "vantage/planner/servo_refiner.hpp"
 #include "vantage/planner/view_candidates.hpp"
 #include "vantage/planner/view_constraints.hpp"
+#include "vantage/planner/view_polisher.hpp"
 #include "vantage/planner/view_search.hpp"
 #include "vantage/raycore/api.hpp"
 #include "vantage/raycore/camera.hpp"
@@ -41,6 +42,7 @@ struct PlanRequest {
   ViewConstraints constraints = {};
   MethodOptions method = {};
   ServoOptions servo = {};
+  PolishOptions polish = {};
   SearchOptions search = {};
   ViewCount views = {};
   VolumeOptions volume = {};  ///< how the work area is classified, and what hides from a new view
@@ -59,8 +61,9 @@ struct Plan {
   std::string score_unit_name = {};
   double score_unit = 1;                         ///< what one step of a `Score` is
   std::vector<ScoredCandidate> candidates = {};  ///< by id, as scored for the first view
-  std::vector<RankedView> ranked = {};           ///< the best of them
-  std::vector<ScoredStep> trace = {};            ///< the best one's servo iterations
+  std::vector<RankedView> ranked = {};           ///< the best of them, the first polished
+  std::vector<ScoredStep> trace = {};            ///< the best one's servo iterations; if it was
+                                                 ///< polished, last where that led
   std::vector<NextView> views = {};              ///< the first is `ranked.front()`
   std::size_t finished = 0;  ///< candidates: rejected, scored, surpassed, passed over
   std::shared_ptr<const StateGrid> classified = {};  ///< as the given cameras left it
@@ -81,13 +84,13 @@ struct Plan {
 };
 
 /// Finds the view that a method likes best, and if more are asked for, those to take after it:
-/// classify, generate candidates, reject those that cannot be, search.
+/// classify, generate candidates, reject those that cannot be, search, polish the best.
 ///
 /// Further views are chosen greedily by their joint gain. The voxel method's gain is submodular, so
 /// that what k views reveal is at least 1 - 1/e of the most that any k of the candidates (and their
 /// servo iterations) can (G. Nemhauser, L. Wolsey and M. Fisher, 1978); earlier gains bound later
 /// ones, which is what makes it fast (M. Minoux, 1978). Other methods search anew in the shadow
-/// that the views before left.
+/// that the views before left. Each further view is polished, too, which only adds to its gain.
 ///
 /// Runs in the caller's task arena; the plan is the same at any number of threads, but for times.
 /// @throws Error bad_input as `classify`, `PinholeCamera`, `view_candidates`, `make_view_scorer`
@@ -111,7 +114,7 @@ struct RegionGain {
 struct ViewExplanation {
   ViewCandidate candidate;
   Rejection rejected = Rejection::none;  ///< then the rest is empty
-  std::vector<ScoredStep> trace = {};    ///< its servo iterations, each with its exact score
+  std::vector<ScoredStep> trace = {};    ///< as `Plan::trace`, each step with its exact score
   std::size_t best_step = 0;
   std::vector<ScoreTerm> terms = {};     ///< of the best step
   std::uint64_t revealed_voxels = 0;     ///< by the best step

@@ -56,6 +56,7 @@ enum class ServoMove : std::uint8_t {
   aim,     ///< turned towards the middle of the shadow
   back,    ///< and moved back, because the shadow touched opposite borders
   closer,  ///< and moved closer, because the shadow was small
+  polish,  ///< none of the servo's: where a `ViewPolisher` led from the best iteration
 };
 VANTAGE_API std::string_view to_text(ServoMove move);
 

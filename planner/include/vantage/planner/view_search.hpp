@@ -7,25 +7,16 @@
 #include <vector>
 
 #include "vantage/planner/servo_refiner.hpp"
+#include "vantage/planner/travel_cost.hpp"
 #include "vantage/planner/view_candidates.hpp"
 #include "vantage/planner/view_constraints.hpp"
+#include "vantage/planner/view_polisher.hpp"
 #include "vantage/planner/view_scorer.hpp"
 #include "vantage/raycore/api.hpp"
 #include "vantage/raycore/camera.hpp"
 #include "vantage/raycore/stop_token.hpp"
 
 namespace vantage {
-
-/// What a journey costs: a view's score counts exp(-weight · distance) times, with the straight
-/// distance from where the camera is (H. Gonzalez-Banos and J.-C. Latombe, "Navigation strategies
-/// for exploring indoor environments", 2002).
-struct TravelCost {
-  double weight_per_m = 0;
-  Eigen::Vector3d from_m = Eigen::Vector3d::Zero();  ///< where the camera is now
-
-  /// @throws Error bad_input unless all is finite and the weight not negative.
-  VANTAGE_API void check() const;
-};
 
 /// How the best view is looked for.
 struct SearchOptions {
@@ -53,11 +44,13 @@ struct ScoredStep {
 /// One of the best candidates.
 struct RankedView {
   std::size_t candidate = 0;  ///< index
-  Pose T_world_cam;           ///< of its best servo iteration, the first one among equals
+  Pose T_world_cam;           ///< of its best servo iteration, the first one among equals;
+                              ///< after `polish`, where that led
   int servo_iteration = 0;
   Score score = 0;
   Score utility = 0;                                  ///< the score, less what the journey costs
   std::optional<std::uint64_t> revealed_voxels = {};  ///< what the voxel method says; set by a plan
+  std::vector<PolishStep> polish = {};                ///< from the servo iteration on; by a plan
 };
 
 struct SearchResult {

@@ -8,7 +8,7 @@
 namespace vantage::detail {
 
 /// The same field of view on an image of another width.
-inline Intrinsics scaled_to(const Intrinsics& k, int width) {
+inline Intrinsics scaled(const Intrinsics& k, int width) {
   const double su = double(width) / k.width;
   const int height = std::max(1, int(std::lround(k.height * su)));
   const double sv = double(height) / k.height;

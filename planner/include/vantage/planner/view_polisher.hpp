@@ -1,0 +1,75 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "vantage/planner/travel_cost.hpp"
+#include "vantage/planner/view_constraints.hpp"
+#include "vantage/planner/view_scorer.hpp"
+#include "vantage/raycore/api.hpp"
+#include "vantage/raycore/camera.hpp"
+#include "vantage/raycore/pose.hpp"
+#include "vantage/raycore/stop_token.hpp"
+
+namespace vantage {
+
+/// Which views are polished after a search, and how.
+struct PolishOptions {
+  int views = 2;          ///< so many of the best; 0: none
+  int image_width = 160;  ///< of the images that tries are scored on, at most the camera's
+
+  /// @throws Error bad_input unless 0 <= views <= 1000 and 16 <= image_width <= 16384.
+  VANTAGE_API void check() const;
+};
+
+/// The four ways to move: the first two take the camera around the shadow's middle, at the same
+/// distance and with the middle at the same place on its image.
+enum class PolishMove : std::uint8_t {
+  around,  ///< about the vertical line through the middle; positive: counterclockwise from above
+  over,    ///< up, if positive; never past the point straight above
+  pan,     ///< turned on the spot about the image's vertical; positive: to the right
+  tilt,    ///< about its horizontal; positive: up
+};
+VANTAGE_API std::string_view to_text(PolishMove move);
+
+/// One step on the way to a better view.
+struct PolishStep {
+  PolishMove move = PolishMove::around;
+  double by_rad = 0;
+  Pose T_world_cam;  ///< after it
+};
+
+/// Looks for a better view around a good one: a compass search (R. Hooke and T. Jeeves, "Direct
+/// search solution of numerical and statistical problems", 1961). What a search over few candidates
+/// misses lies between them: the servo turns a camera and moves it along its axis, but never around
+/// what hides the shadow.
+///
+/// The distance from the shadow stays as it is. To choose that is the servo's part (thesis 7.5): a
+/// score that grows with depth, as D^6 does, would be the better the farther away, without end.
+/// Immutable; thread-safe.
+class VANTAGE_API ViewPolisher {
+ public:
+  /// @param camera of the robot; its pose does not matter.
+  /// @throws Error as the options' checks do.
+  ViewPolisher(std::shared_ptr<const ViewScorer> scorer, std::shared_ptr<const ViewChecker> checker,
+               const PinholeCamera& camera, const Eigen::Vector3d& shadow_centre,
+               const PolishOptions& options, const std::optional<TravelCost>& travel = {});
+
+  /// Steps to ever better views, all of them feasible: first of 20° around and over and of 6° in
+  /// pan and tilt, then of a half and of a quarter of that, each as long as one of them helps. None
+  /// if there is nothing better around. It ends early if `stop` asks for it.
+  ///
+  /// Better is a higher score less the journey's cost, on an image of `image_width`: on a larger
+  /// one the last of them may differ a little.
+  std::vector<PolishStep> path(const Pose& T_world_cam, const StopToken& stop = {}) const;
+
+ private:
+  struct Impl;
+  std::shared_ptr<const Impl> impl_;
+};
+
+}  // namespace vantage
