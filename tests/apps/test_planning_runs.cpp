@@ -32,6 +32,7 @@ PlanningSettings small_settings(int servo) {
   PlanningSettings settings;
   choose({"shadowD0", "light"}, {"production"}, settings);
   settings.servo = {.iterations = servo, .image_width = 40};
+  settings.polish = {.views = 0};
   return settings;
 }
 
@@ -128,6 +129,31 @@ TEST_CASE("with servo: no method beats the voxel method by vox score, or the tru
     }
     CHECK(*vox_ratio(scene, scene.sets[0].runs[0].pick->worth()) == 1);
   }
+}
+
+TEST_CASE("a polished pick is the last of its steps, and better by its method than the others") {
+  const TemporaryFolder folder;
+  const PlanningCell cell = small_cell(folder, "+ideal");
+  PlanningSettings settings = small_settings(2);
+  const SceneEvaluation before = evaluate(cell, settings);
+  settings.polish = {.views = 2};
+  const SceneEvaluation scene = evaluate(cell, settings);
+  std::size_t polished = 0;
+  for (std::size_t m = 0; m < scene.sets[0].runs.size(); ++m) {
+    const MethodRun& run = scene.sets[0].runs[m];
+    CAPTURE(run.method);
+    REQUIRE(run.pick);
+    CHECK(run.pick->worth().method_score >= before.sets[0].runs[m].pick->worth().method_score);
+    CHECK(*regret_m3(scene.sets[0], run) >= 0);
+    if (run.pick->steps.back().move != "polish") continue;
+    ++polished;
+    CHECK(run.pick->best_step + 1 == run.pick->steps.size());
+    for (std::size_t i = 0; i < run.pick->best_step; ++i) {
+      CHECK(run.pick->steps[i].worth.method_score < run.pick->worth().method_score);
+    }
+  }
+  CHECK(polished >= 2);
+  CHECK(scene.sets[0].best_true_gain_m3 >= before.sets[0].best_true_gain_m3);
 }
 
 TEST_CASE("a scene in which nothing known hides anything gets no view from voxel and shadow") {

@@ -149,7 +149,9 @@ TEST_CASE("the plan's schema takes what a plan has and nothing else") {
                "near_m": 0.1, "far_m": 3.0},
     "best": {"id": 17, "T_world_cam": {"rotation": {"w": 1, "x": 0, "y": 0, "z": 0},
              "translation_m": [0, 0, 0]}, "score": 0.000943, "newly_observed_volume_m3": 0.000943,
-             "servo_iteration": 2, "servo_trace": []},
+             "servo_iteration": 2, "servo_trace": [],
+             "polish": [{"move": "pan", "by_rad": -0.1, "T_world_cam":
+               {"rotation": {"w": 1, "x": 0, "y": 0, "z": 0}, "translation_m": [0, 0, 0]}}]},
     "views": [], "ranked": [], "rejections": {"out of reach": 1}, "explanations": [],
     "candidates": [
       {"id": 17, "score": 0.0, "score_at_most": 0.0, "newly_observed_volume_m3": 0.0,
@@ -194,6 +196,9 @@ TEST_CASE("the plan's schema takes what a plan has and nothing else") {
   changed = plan;
   changed["best"]["servo_iteration"] = -1;
   expect_refused([&] { check(changed); }, "plan.json: best.servo_iteration", {"found -1"});
+  changed = plan;
+  changed["best"]["polish"][0]["move"] = "roll";
+  expect_refused([&] { check(changed); }, "plan.json: best.polish[0].move", {"found \"roll\""});
 }
 
 }  // namespace vantage::test

@@ -227,7 +227,12 @@ TEST_CASE("methods, further views and explanations, by the command line") {
   CHECK(json["ranked"][0]["id"] == json["best"]["id"]);
   CHECK(json["views"][0]["T_world_cam"] == json["best"]["T_world_cam"]);
   CHECK(json["views"].size() <= 3);
-  CHECK(json["best"]["servo_trace"].size() <= 3);
+  CHECK(json["config"]["polish"]["views"] == 2);
+  const nlohmann::json &trace = json["best"]["servo_trace"], &steps = json["best"]["polish"];
+  REQUIRE(!trace.empty());
+  CHECK((trace.back()["move"] == "polish") == !steps.empty());
+  CHECK(trace.size() <= (steps.empty() ? 3 : 4));
+  if (!steps.empty()) CHECK(steps.back()["T_world_cam"] == json["best"]["T_world_cam"]);
   REQUIRE(json["explanations"].size() == 2);
   const nlohmann::json& explained = json["explanations"][0];
   CHECK(explained["id"] == 7);
@@ -245,6 +250,12 @@ TEST_CASE("methods, further views and explanations, by the command line") {
   const auto unknown = run_vantage(plan + " --explain 40");
   CHECK(unknown.exit_code == 3);
   CHECK(unknown.err.find("found candidate 40; expected 0 to 39") != std::string::npos);
+  const auto raw = run_vantage(plan + " --polish 0 --method shadow --json").json();
+  const auto polished = run_vantage(plan + " --method shadow --json").json();
+  CHECK(raw["best"]["polish"].empty());
+  CHECK(polished["best"]["score"] >= raw["best"]["score"]);
+  CHECK(polished["candidates"].size() == raw["candidates"].size());
+  CHECK(run_vantage(plan + " --polish -1").exit_code == 2);
   CHECK(run_vantage(plan + " --travel-weight 2").exit_code == 2);  // from where?
   CHECK(run_vantage(plan + " --method depth").exit_code == 2);
 }

@@ -38,7 +38,7 @@ TEST_CASE("evaluate planning: tables, planning.json, charts and a page") {
   REQUIRE(result.exit_code == 0);
   for (const char* part :
        {"wall:side (thesis: Wall, side)", "foreign_objects:front+ideal",
-        "Methods compared: production set, 40 views, servo 2", "thesis: table 9.1"}) {
+        "Methods compared: production set, 40 views, servo 2, 2 polished", "thesis: table 9.1"}) {
     CAPTURE(part);
     CHECK(result.out.find(part) != std::string::npos);
   }

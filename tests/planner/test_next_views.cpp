@@ -58,7 +58,7 @@ std::uint64_t gain(const std::vector<std::uint8_t>& set, const std::vector<std::
 TEST_CASE("further views are those that plain greedy takes") {
   const WorldModel world = posts_world();
   PlanRequest request = k_views(4);
-  request.servo.iterations = 0;
+  request.servo.iterations = request.polish.views = 0;
   const Plan plan = plan_next_view(world, request);
   REQUIRE(plan.views.size() == 4);
   std::vector<Pose> poses;
@@ -84,7 +84,7 @@ TEST_CASE("further views are those that plain greedy takes") {
 TEST_CASE("greedy views reveal at least 1 - 1/e of what the best views can") {
   const WorldModel world = posts_world();
   PlanRequest request = k_views(2);
-  request.servo.iterations = 0;
+  request.servo.iterations = request.polish.views = 0;
   const Plan plan = plan_next_view(world, request);
   std::vector<Pose> poses;
   for (const ScoredCandidate& candidate : plan.candidates) {
@@ -106,7 +106,8 @@ TEST_CASE("greedy views reveal at least 1 - 1/e of what the best views can") {
 
 TEST_CASE("with servoing, further views are the best of all iterations of all candidates") {
   const WorldModel world = posts_world();
-  const PlanRequest request = k_views(3);
+  PlanRequest request = k_views(3);
+  request.polish.views = 0;
   const Plan plan = plan_next_view(world, request);
   REQUIRE(plan.views.size() == 3);
   std::vector<Pose> poses;
@@ -124,6 +125,31 @@ TEST_CASE("with servoing, further views are the best of all iterations of all ca
     const auto taken = revealed_sets(world, plan, {next.view.T_world_cam}).front();
     for (std::size_t i = 0; i < left.size(); ++i) left[i] &= std::uint8_t(1 - taken[i]);
   }
+}
+
+TEST_CASE("each further view is polished in the shadow that those before it left") {
+  const WorldModel world = posts_world();
+  const Plan plan = plan_next_view(world, k_views(3));
+  REQUIRE(plan.views.size() == 3);
+  std::vector<Pose> before, after;
+  for (const NextView& next : plan.views) {
+    const auto trace =
+        explain_view(world, plan, plan.candidates[next.view.candidate].view.id).trace;
+    before.push_back(trace[std::size_t(next.view.servo_iteration)].step.T_world_cam);
+    after.push_back(next.view.T_world_cam);
+  }
+  const auto unpolished = revealed_sets(world, plan, before);
+  const auto polished = revealed_sets(world, plan, after);
+  std::vector<std::uint8_t> left(polished.front().size(), 1);
+  std::size_t better = 0;
+  for (std::size_t v = 0; v < plan.views.size(); ++v) {
+    CHECK(plan.views[v].revealed_voxels == gain(polished[v], left));
+    const bool moved = !plan.views[v].view.polish.empty();
+    CHECK((gain(polished[v], left) > gain(unpolished[v], left)) == moved);
+    better += moved;
+    for (std::size_t i = 0; i < left.size(); ++i) left[i] &= std::uint8_t(1 - polished[v][i]);
+  }
+  CHECK(better >= 2);
 }
 
 TEST_CASE("every method plans several views, none of them twice") {
@@ -188,8 +214,14 @@ TEST_CASE("an explanation adds up") {
     const ScoredStep& best = view.trace[view.best_step];
     for (const ScoredStep& step : view.trace) CHECK(step.score.score <= best.score.score);
     CHECK(best.score.score <= plan.best()->score);
+    const bool told = view.verdict.find("(polished)") != std::string::npos;
+    CHECK(told == (best.step.move == ServoMove::polish || !plan.best()->polish.empty()));
     CHECK(view.revealed_voxels == best.score.score);  // method voxel
-    if (candidate.score.exact()) CHECK(candidate.score.score == best.score.score);
+    if (candidate.score.exact()) {                    // before polishing
+      const auto at = std::size_t(candidate.servo_iteration);
+      CHECK(candidate.score.score == view.trace[at].score.score);
+      CHECK((at == view.best_step) == (best.step.move != ServoMove::polish));
+    }
     std::uint64_t sum = 0;
     for (const RegionGain& region : view.regions) {
       CHECK(region.revealed <= region.voxels);

@@ -2,7 +2,10 @@
 #include <tbb/global_control.h>
 #include <tbb/task_arena.h>
 
+#include <algorithm>
+
 #include "support/expect_error.hpp"
+#include "support/scene_count.hpp"
 #include "vantage/raycore/scene_builder.hpp"
 #include "wall_world.hpp"
 
@@ -51,8 +54,9 @@ TEST_CASE("behind a wall: the plan looks from the other side, whatever the metho
 
 TEST_CASE("the trace of the best view holds its score, and servoing does not make it worse") {
   PlanRequest request = small_request();
-  request.servo.iterations = 0;
+  request.servo.iterations = request.polish.views = 0;
   const Plan still = plan_next_view(wall_world(), request);
+  request.polish.views = 2;
   request.servo.iterations = 5;
   const Plan plan = plan_next_view(wall_world(), request);
   CHECK(plan.best()->score >= still.best()->score);
@@ -61,10 +65,61 @@ TEST_CASE("the trace of the best view holds its score, and servoing does not mak
     REQUIRE(plan.trace[i].score.exact());
     CHECK(plan.trace[i].score.score <= plan.best()->score);
   }
-  const ScoredStep& best = plan.trace[std::size_t(plan.best()->servo_iteration)];
+  const bool polished = !plan.best()->polish.empty();
+  const ScoredStep& best =
+      polished ? plan.trace.back() : plan.trace[std::size_t(plan.best()->servo_iteration)];
+  CHECK((best.step.move == ServoMove::polish) == polished);
   CHECK(best.score.score == plan.best()->score);
   CHECK(same_pose(best.step.T_world_cam, plan.best()->T_world_cam));
   CHECK(still.trace.size() == 1);
+}
+
+TEST_CASE("polishing makes the best views better, and the rest stays as it is") {
+  std::size_t polished = 0;
+  for (std::uint32_t seed = 0; seed < test::scene_count(6); ++seed) {
+    const WorldModel world = test::random_workcell(seed);
+    for (const std::string method : {"voxel", "shadow", "light"}) {
+      CAPTURE(seed);
+      CAPTURE(method);
+      PlanRequest request = small_request();
+      request.voxel_size_m = 0.02;
+      request.method.name = method;
+      if (seed % 2 == 1) request.search.travel = TravelCost{2, {0.3, 0.3, 0.3}};
+      request.polish.views = 0;
+      const Plan raw = plan_next_view(world, request);
+      request.polish.views = 3;
+      const Plan plan = plan_next_view(world, request);
+      REQUIRE(plan.ranked.size() == raw.ranked.size());
+      std::vector<std::size_t> first, were_first;
+      for (std::size_t i = 0; i < plan.ranked.size(); ++i) {
+        const RankedView& view = plan.ranked[i];
+        const auto was = std::find_if(raw.ranked.begin(), raw.ranked.end(), [&](const auto& other) {
+          return other.candidate == view.candidate;
+        });
+        REQUIRE(was != raw.ranked.end());
+        if (i < 3) {
+          first.push_back(view.candidate), were_first.push_back(raw.ranked[i].candidate);
+        } else {
+          CHECK(raw.ranked[i].candidate == view.candidate);
+          CHECK(view.polish.empty());
+        }
+        CHECK((view.utility > was->utility) == !view.polish.empty());
+        CHECK(view.servo_iteration == was->servo_iteration);
+        const bool sorted = i == 0 || plan.ranked[i - 1].utility > view.utility ||
+                            (plan.ranked[i - 1].utility == view.utility &&
+                             plan.ranked[i - 1].candidate < view.candidate);
+        CHECK(sorted);
+        if (view.polish.empty()) {
+          CHECK(same_pose(view.T_world_cam, was->T_world_cam));
+          continue;
+        }
+        CHECK(same_pose(view.T_world_cam, view.polish.back().T_world_cam));
+        ++polished;
+      }
+      CHECK(std::is_permutation(first.begin(), first.end(), were_first.begin(), were_first.end()));
+    }
+  }
+  CHECK(polished >= test::enough(10));
 }
 
 TEST_CASE("a plan for a grid that is classified already is the same") {
@@ -161,8 +216,14 @@ TEST_CASE("a plan that is stopped says so and has no half-counted score") {
     const Plan plan = plan_next_view(
         wall_world(), request,
         StopToken::with_deadline(StopToken::Clock::now() + std::chrono::milliseconds(ms)));
-    CHECK((plan.stopped == StopReason::deadline) ==
-          (plan.grid == nullptr || plan.finished < plan.candidates.size()));
+    // It may also be stopped while the best views are polished.
+    if (plan.grid == nullptr || plan.finished < plan.candidates.size()) {
+      CHECK(plan.stopped == StopReason::deadline);
+    }
+    if (plan.stopped == StopReason::none) CHECK(plan.finished == plan.candidates.size());
+    if (plan.stopped != StopReason::none && plan.best() != nullptr) {
+      CHECK(plan.best()->polish.empty());
+    }
     for (std::size_t i = 0; i < plan.candidates.size(); ++i) {
       const ScoreBound &now = plan.candidates[i].score, &then = whole.candidates[i].score;
       if (now.exact() && then.exact()) CHECK(now.score == then.score);
@@ -186,6 +247,9 @@ TEST_CASE("planning refuses a request that makes no sense") {
   request = small_request();
   request.method.name = "depth";
   test::expect_bad_input("method", "voxel, shadow", [&] { plan_next_view(wall_world(), request); });
+  request = small_request();
+  request.polish.views = -1;
+  test::expect_bad_input("polish", "-1", [&] { plan_next_view(wall_world(), request); });
   request = small_request();
   request.servo.iterations = 101;
   test::expect_bad_input("servo", "101", [&] { plan_next_view(wall_world(), request); });

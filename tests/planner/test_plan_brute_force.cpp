@@ -45,6 +45,7 @@ TEST_CASE("on random workcells a plan's top ten are those of scoring everything,
       PlanRequest request = test::small_request();
       request.voxel_size_m = 0.02;
       request.method = {method, seed % 2 == 0 ? 6.0 : 0.0};
+      request.polish.views = 0;
       request.servo.iterations = seed % 3 == 0 ? 0 : 3;
       request.candidates = HalfSpheres{{0.35, 0.5}, {9}, {1, 0.3}};
       const Plan plan = plan_next_view(world, request);

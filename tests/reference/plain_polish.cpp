@@ -34,7 +34,12 @@ std::optional<Pose> plain_polished_pose(const Pose& start, const Eigen::Vector3d
   const Eigen::Vector3d arm = start.translation() - middle;
   const double distance_m = arm.norm(), elevation = std::asin(arm.z() / distance_m);
   if (elevation + angles[1] > std::numbers::pi / 2 + 1e-9) return std::nullopt;
-  const double azimuth = std::atan2(arm.y(), arm.x());
+  double azimuth = std::atan2(arm.y(), arm.x());
+  if (std::hypot(arm.x(), arm.y()) < 1e-6 * distance_m) {
+    // Straight above: down is where the image's lower border is.
+    const Eigen::Vector3d right = start.rotation().col(0);
+    azimuth = std::atan2(-right.x(), right.y());
+  }
   const Eigen::Matrix3d here = frame_at(azimuth, elevation);
   const Eigen::Matrix3d there = frame_at(azimuth + angles[0], elevation + angles[1]);
   const Eigen::Matrix3d rotation = there * here.transpose() * start.rotation() *
