@@ -21,6 +21,7 @@ void add_evaluate_command(CLI::App& app, Action& action);
 void add_evaluate_planning(CLI::App& evaluate_verb, Action& action);
 void add_evaluate_reconstruction(CLI::App& evaluate_verb, Action& action);
 void add_evaluate_shadow_filters(CLI::App& evaluate_verb, Action& action);
+void add_evaluate_replay(CLI::App& evaluate_verb, Action& action);
 
 /// Options that verbs share.
 struct CommonOptions {

@@ -44,6 +44,7 @@ void add_evaluate_command(CLI::App& app, Action& action) {
   add_evaluate_planning(*verb, action);
   add_evaluate_reconstruction(*verb, action);
   add_evaluate_shadow_filters(*verb, action);
+  add_evaluate_replay(*verb, action);
 }
 
 }  // namespace vantage

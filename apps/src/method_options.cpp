@@ -15,6 +15,19 @@ void add_travel_options(CLI::App& verb, MethodArguments& arguments) {
       ->needs(from);
 }
 
+void add_view_count_options(CLI::App& verb, ViewCount& views) {
+  verb.add_option("--views", views.most, "Plan so many views, each for what those before it left")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  verb.add_option("--least-gain", views.least_gain_m3,
+                  "Stop before a further view that reveals less than this, m³")
+      ->check(CLI::NonNegativeNumber);
+  verb.add_option("--least-gain-share", views.least_gain_share, "The same as a share of all shadow")
+      ->check(CLI::Range(0.0, 1.0));
+}
+
+}  // namespace
+
 void add_mesh_options(CLI::App& verb, MeshOptions& mesh) {
   static const std::map<std::string, DepthHoles> holes{{"fill", DepthHoles::fill},
                                                        {"unknown", DepthHoles::unknown}};
@@ -41,19 +54,6 @@ void add_mesh_options(CLI::App& verb, MeshOptions& mesh) {
       ->check(CLI::Range(1, 1000000))
       ->capture_default_str();
 }
-
-void add_view_count_options(CLI::App& verb, ViewCount& views) {
-  verb.add_option("--views", views.most, "Plan so many views, each for what those before it left")
-      ->check(CLI::Range(1, 1000))
-      ->capture_default_str();
-  verb.add_option("--least-gain", views.least_gain_m3,
-                  "Stop before a further view that reveals less than this, m³")
-      ->check(CLI::NonNegativeNumber);
-  verb.add_option("--least-gain-share", views.least_gain_share, "The same as a share of all shadow")
-      ->check(CLI::Range(0.0, 1.0));
-}
-
-}  // namespace
 
 void MethodArguments::add_to(CLI::App& verb) {
   verb.add_option(

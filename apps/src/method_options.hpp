@@ -26,4 +26,7 @@ struct MethodArguments {
   void apply(PlanRequest& request) const;
 };
 
+/// The options of --method mesh.
+void add_mesh_options(CLI::App& verb, MeshOptions& mesh);
+
 }  // namespace vantage

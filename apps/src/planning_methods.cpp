@@ -40,15 +40,23 @@ NamedMethod named_method(const std::string& name) {
                               name, fmt::join(method_names(), ", ")));
 }
 
+std::vector<NamedMethod> named_methods(const std::vector<std::string>& names) {
+  std::vector<NamedMethod> methods;
+  std::vector<std::string> full_names;
+  for (const std::string& name : names) {
+    methods.push_back(named_method(name));
+    full_names.push_back(methods.back().name);
+  }
+  refuse_twice("--methods", full_names);
+  return methods;
+}
+
 void choose(const std::vector<std::string>& methods, const std::vector<std::string>& sets,
             PlanningSettings& settings) {
-  std::vector<std::string> names;
-  for (const std::string& method : methods) names.push_back(named_method(method).name);
-  refuse_twice("--methods", names);
   refuse_twice("--candidates", sets);
   settings.methods = {named_method("voxel")};
-  for (const std::string& name : names) {
-    if (name != "voxel") settings.methods.push_back(named_method(name));
+  for (NamedMethod& method : named_methods(methods)) {
+    if (method.name != "voxel") settings.methods.push_back(std::move(method));
   }
   for (const std::string& set : kSets) {
     if (std::ranges::find(sets, set) != sets.end()) settings.sets.push_back(set);

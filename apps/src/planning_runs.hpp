@@ -21,6 +21,10 @@ struct NamedMethod {
 /// @throws Error bad_input for another name.
 NamedMethod named_method(const std::string& name);
 
+/// Several, in their order.
+/// @throws Error bad_input for a name that is none, and one that is there twice.
+std::vector<NamedMethod> named_methods(const std::vector<std::string>& names);
+
 /// What `vantage evaluate planning` was asked for.
 struct PlanningSettings {
   std::vector<NamedMethod> methods;  ///< the first is `voxel`

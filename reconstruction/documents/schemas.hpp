@@ -13,6 +13,7 @@ const nlohmann::json& observation_schema();
 const nlohmann::json& evaluation_schema();
 const nlohmann::json& planning_schema();
 const nlohmann::json& shadow_filters_schema();
+const nlohmann::json& replay_schema();
 const nlohmann::json& views_schema();
 
 }  // namespace vantage

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace vantage {
+
+/// A recorded frame as the view to take after two others.
+struct ReplayView {
+  int frame = 0;                    ///< its image's id
+  double predicted_gain_m3 = 0;     ///< the shadow that it sees, by the voxel method
+  double real_gain_m3 = 0;          ///< the shadow that is none any more with its depth image
+  std::vector<double> scores = {};  ///< by every method, in that method's unit
+};
+
+/// Two frames as the cameras, and all others as the candidates.
+struct ReplayPair {
+  std::array<int, 2> frames = {};       ///< ids of their images
+  double shadow_m3 = 0;                 ///< that the two leave
+  std::vector<ReplayView> views = {};   ///< ascending by frame; never empty
+  std::vector<std::size_t> picks = {};  ///< by every method: index into `views`
+};
+
+/// How methods chose among the frames of a recording.
+struct ReplayEvaluation {
+  std::vector<std::string> methods;
+  std::vector<ReplayPair> pairs;
+};
+
+/// The view that really revealed most; the first of them.
+const ReplayView& best_view(const ReplayPair& pair);
+
+/// What the views really revealed on average, m³.
+double mean_gain_m3(const ReplayPair& pair);
+
+/// How good a pick turned out to be.
+struct PickWorth {
+  double share_of_best = 0;  ///< its real gain / the best view's
+  double times_mean = 0;     ///< its real gain / the views' mean
+  std::size_t rank = 1;      ///< 1 + how many views revealed more
+};
+
+/// Of the pick of method number `method`; nothing where no view revealed anything.
+std::optional<PickWorth> worth_of(const ReplayPair& pair, std::size_t method);
+
+/// Means over the pairs of which there is something to say.
+struct ReplayMeans {
+  std::size_t pairs = 0;
+  double share_of_best = 0, least_share_of_best = 0, times_mean = 0, rank = 0;
+  double predicted_gain_m3 = 0, real_gain_m3 = 0;
+};
+
+/// Of one method; nothing where no view of any pair revealed anything.
+std::optional<ReplayMeans> replay_means(const ReplayEvaluation& evaluation, std::size_t method);
+
+/// What a blind choice among the views would give: the mean of the views' mean gain / the best
+/// view's.
+std::optional<double> blind_share_of_best(const ReplayEvaluation& evaluation);
+
+}  // namespace vantage
