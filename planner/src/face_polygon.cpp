@@ -1,10 +1,10 @@
 #include "face_polygon.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "vantage/raycore/box_projector.hpp"
+#include "vantage/raycore/multiversion.hpp"
 
 namespace vantage::detail {
 namespace {
@@ -13,22 +13,10 @@ namespace {
 constexpr double kRoundingOfSpans_px = 1e-3;
 constexpr double kFloat = 0x1p-21;  // some roundings, one after the other
 
-/// The part of a quadrilateral that is not nearer than `near_m`: at most five corners.
-int clip(const Eigen::Vector3d (&corners)[4], double near_m, Eigen::Vector3d* clipped) {
-  int count = 0;
-  for (int i = 0; i < 4; ++i) {
-    const Eigen::Vector3d &p = corners[i], &q = corners[(i + 1) % 4];
-    if (p.z() >= near_m) clipped[count++] = p;
-    if ((p.z() >= near_m) == (q.z() >= near_m)) continue;
-    clipped[count] = p + (near_m - p.z()) / (q.z() - p.z()) * (q - p);
-    clipped[count++].z() = near_m;
-  }
-  return count;
-}
-
-/// The whole numbers in [low, high] that are in [0, size).
-PixelSpan whole(double low, double high, int size) {
-  const double first = std::ceil(std::max(low, 0.0)), last = std::floor(std::min(high, size - 1.0));
+/// The whole numbers in [low, high] that are in a span.
+PixelSpan whole(double low, double high, const PixelSpan& span) {
+  const double first = std::ceil(std::max(low, double(span.first)));
+  const double last = std::floor(std::min(high, double(span.last)));
   return first <= last ? PixelSpan{int(first), int(last)} : PixelSpan{0, -1};
 }
 
@@ -38,73 +26,150 @@ double farthest_tangent(const Intrinsics& k) {
   return x + y;
 }
 
+/// A camera and faces' corners, as plain numbers.
+struct CornerJob {
+  double r[9], eye[3];  ///< world to camera
+  double fx, fy, cx, cy;
+  const double *x, *y, *z;
+};
+
+VANTAGE_MULTIVERSION
+void project_all(const CornerJob& job, std::size_t count, double* __restrict u,
+                 double* __restrict v, double* __restrict depth) {
+  for (std::size_t i = 0; i < count; ++i) {
+    const double dx = job.x[i] - job.eye[0], dy = job.y[i] - job.eye[1], dz = job.z[i] - job.eye[2];
+    const double x = job.r[0] * dx + job.r[1] * dy + job.r[2] * dz;
+    const double y = job.r[3] * dx + job.r[4] * dy + job.r[5] * dz;
+    const double z = job.r[6] * dx + job.r[7] * dy + job.r[8] * dz;
+    const double inverse = 1 / z;
+    u[i] = job.fx * x * inverse + job.cx;
+    v[i] = job.fy * y * inverse + job.cy;
+    depth[i] = z;
+  }
+}
+
 }  // namespace
 
-FaceProjector::FaceProjector(const PinholeCamera& camera, double largest_coordinate_m)
-    : image_(camera.intrinsics()),
-      range_(camera.range()),
+FaceProjector::FaceProjector(const PinholeCamera& camera, const FlatFaces& faces)
+    : FaceProjector(camera, faces,
+                    {{0, camera.intrinsics().width - 1},
+                     {0, camera.intrinsics().height - 1},
+                     camera.range().far_m}) {}
+
+FaceProjector::FaceProjector(const PinholeCamera& camera, const FlatFaces& faces,
+                             const Window& window)
+    : faces_(faces),
+      image_(camera.intrinsics()),
+      window_(window),
       centre_(camera.centre()),
       R_cam_world_(camera.T_world_cam().rotation().transpose()),
       margin_m_(kRoundingOfRays *
-                std::max(largest_coordinate_m, camera.centre().cwiseAbs().maxCoeff())),
+                std::max(faces.largest_coordinate_m, camera.centre().cwiseAbs().maxCoeff())),
       // du = fx (dx - x/z dz) / z, and the same for v.
-      pixels_per_radian_(std::max(image_.fx, image_.fy) * 2 * (1 + farthest_tangent(image_))) {}
+      pixels_per_radian_(std::max(image_.fx, image_.fy) * 2 * (1 + farthest_tangent(image_))),
+      clip_m_(
+          std::max(camera.range().near_m * (1 - 1e-3) - margin_m_, 0.5 * camera.range().near_m)),
+      u_(new double[faces.x.size()]),
+      v_(new double[faces.x.size()]),
+      depth_(new double[faces.x.size()]) {
+  CornerJob job{{},
+                {centre_.x(), centre_.y(), centre_.z()},
+                image_.fx,
+                image_.fy,
+                image_.cx,
+                image_.cy,
+                faces.x.data(),
+                faces.y.data(),
+                faces.z.data()};
+  for (int i = 0; i < 9; ++i) job.r[i] = R_cam_world_(i / 3, i % 3);
+  const std::size_t count = faces.x.size();
+  project_all(job, count, u_.get(), v_.get(), depth_.get());
+  for (std::size_t i = 0; i < count; ++i) farthest_m_ = std::max(farthest_m_, depth_[i]);
+}
 
-bool FaceProjector::project(const Eigen::Vector3d (&corners)[4], const Eigen::Vector3d& normal,
-                            double distance_m, FacePolygon& polygon) const {
-  double z0 = corners[0].z(), z1 = z0;
-  for (int i = 1; i < 4; ++i) {
-    z0 = std::min(z0, corners[i].z());
-    z1 = std::max(z1, corners[i].z());
-  }
-  // What is nearer than near is not counted.
-  const double near_m = range_.near_m * (1 - 1e-3) - margin_m_;
-  const double clip_m = std::max(near_m, 0.5 * range_.near_m);
-  if (z1 < clip_m || z0 > range_.far_m * (1 + 1e-3) + margin_m_) return false;
-  Eigen::Vector3d clipped[FacePolygon::kMostEdges + 3];
-  int count = 4;
-  if (z0 < clip_m) {
-    count = clip(corners, clip_m, clipped);
-    z0 = clip_m;
-  } else {
-    std::copy(std::begin(corners), std::end(corners), clipped);
-  }
-
-  std::array<ImageCorner, FacePolygon::kMostEdges + 3> on_image;
-  double u0 = 1e300, u1 = -1e300, v0 = 1e300, v1 = -1e300;
-  for (int i = 0; i < count; ++i) {
-    const double inverse = 1 / clipped[i].z();
-    const double u = image_.fx * clipped[i].x() * inverse + image_.cx;
-    const double v = image_.fy * clipped[i].y() * inverse + image_.cy;
-    on_image[std::size_t(i)] = {u, v};
-    u0 = std::min(u0, u), u1 = std::max(u1, u), v0 = std::min(v0, v), v1 = std::max(v1, v);
-  }
-  const double margin = pixels_per_radian_ * margin_m_ / z0 + kRoundingOfSpans_px;
-  polygon.columns = whole(u0 - margin, u1 + margin, image_.width);
-  polygon.rows = whole(v0 - margin, v1 + margin, image_.height);
-  if (polygon.columns.last < 0 || polygon.rows.last < 0) return false;
-  polygon.certain_rows = whole(v0 + margin, v1 - margin, image_.height);
-  polygon.nearest_m = z0;
-  set_edges({on_image.data(), std::size_t(count)}, margin, polygon);
-  set_depth(normal, distance_m, std::min(z1, range_.far_m), polygon);
+bool FaceProjector::project(const FlatFaces::Face& face, FacePolygon& polygon) const {
+  Corners corners;
+  if (!project_corners(face, corners, polygon)) return false;
+  polygon.certain_rows =
+      whole(corners.top + corners.margin, corners.bottom - corners.margin, window_.rows);
+  set_edges(corners, polygon);
+  set_depth(face, corners, polygon);
   return true;
 }
 
-void FaceProjector::set_edges(std::span<const ImageCorner> corners, double margin,
-                              FacePolygon& polygon) const {
-  double mid_u = 0, mid_v = 0;
-  for (const ImageCorner& c : corners) {
-    mid_u += c.u / double(corners.size());
-    mid_v += c.v / double(corners.size());
-  }
+bool FaceProjector::project_outline(const FlatFaces::Face& face, FacePolygon& polygon) const {
+  constexpr int kSmall_px = 4;
+  Corners corners;
+  if (!project_corners(face, corners, polygon)) return false;
+  const int columns = polygon.columns.last - polygon.columns.first;
+  const int rows = polygon.rows.last - polygon.rows.first;
   polygon.left_edges = polygon.right_edges = 0;
-  for (std::size_t i = 0; i < corners.size(); ++i) {
-    const ImageCorner &p = corners[i], &q = corners[(i + 1) % corners.size()];
-    const double du = q.u - p.u, dv = q.v - p.v;
+  if (std::min(columns, rows) > 0 && std::max(columns, rows) >= kSmall_px) {
+    set_edges(corners, polygon);
+  }
+  return true;
+}
+
+bool FaceProjector::project_corners(const FlatFaces::Face& face, Corners& corners,
+                                    FacePolygon& polygon) const {
+  double z0 = 1e300, z1 = -1e300;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const std::uint32_t c = face.corners[i];
+    corners.u[i] = u_[c], corners.v[i] = v_[c];
+    z0 = std::min(z0, depth_[c]), z1 = std::max(z1, depth_[c]);
+  }
+  if (z1 < clip_m_ || z0 > window_.farthest_m * (1 + 1e-3) + margin_m_) return false;
+  corners.count = 4;
+  if (z0 < clip_m_) {
+    clip(face, corners);
+    z0 = clip_m_;
+  }
+  corners.nearest_m = z0, corners.farthest_m = z1;
+  corners.margin = pixels_per_radian_ * margin_m_ / z0 + kRoundingOfSpans_px;
+  double u0 = 1e300, u1 = -1e300, v0 = 1e300, v1 = -1e300;
+  for (int i = 0; i < corners.count; ++i) {
+    u0 = std::min(u0, corners.u[i]), u1 = std::max(u1, corners.u[i]);
+    v0 = std::min(v0, corners.v[i]), v1 = std::max(v1, corners.v[i]);
+  }
+  corners.top = v0, corners.bottom = v1;
+  polygon.columns = whole(u0 - corners.margin, u1 + corners.margin, window_.columns);
+  polygon.rows = whole(v0 - corners.margin, v1 + corners.margin, window_.rows);
+  return polygon.columns.last >= 0 && polygon.rows.last >= 0;
+}
+
+/// The part that is not nearer than `clip_m_`: at most five corners.
+void FaceProjector::clip(const FlatFaces::Face& face, Corners& corners) const {
+  const auto in_camera = [&](std::size_t i) -> Eigen::Vector3d {
+    const std::uint32_t c = face.corners[i];
+    return R_cam_world_ * (Eigen::Vector3d(faces_.x[c], faces_.y[c], faces_.z[c]) - centre_);
+  };
+  corners.count = 0;
+  const auto add = [&](const Eigen::Vector3d& p, double depth) {
+    corners.u[corners.count] = image_.fx * p.x() / depth + image_.cx;
+    corners.v[corners.count++] = image_.fy * p.y() / depth + image_.cy;
+  };
+  for (std::size_t i = 0; i < 4; ++i) {
+    const Eigen::Vector3d p = in_camera(i), q = in_camera((i + 1) % 4);
+    if (p.z() >= clip_m_) add(p, p.z());
+    if ((p.z() >= clip_m_) == (q.z() >= clip_m_)) continue;
+    add(p + (clip_m_ - p.z()) / (q.z() - p.z()) * (q - p), clip_m_);
+  }
+}
+
+void FaceProjector::set_edges(const Corners& corners, FacePolygon& polygon) const {
+  const int count = corners.count;
+  double mid_u = 0, mid_v = 0;
+  for (int i = 0; i < count; ++i) mid_u += corners.u[i], mid_v += corners.v[i];
+  mid_u /= count, mid_v /= count;
+  polygon.left_edges = polygon.right_edges = 0;
+  for (int i = 0; i < count; ++i) {
+    const int next = i + 1 < count ? i + 1 : 0;
+    const double pu = corners.u[i], pv = corners.v[i];
+    const double du = corners.u[next] - pu, dv = corners.v[next] - pv;
     // `rows` and `certain_rows` stand for edges that run along them.
     if (std::abs(dv) <= 1e-6 * std::abs(du)) continue;
-    const double slope = du / dv, offset = p.u - slope * p.v;
-    const double slack = margin * (1 + std::abs(slope)) +
+    const double slope = du / dv, offset = pu - slope * pv;
+    const double slack = corners.margin * (1 + std::abs(slope)) +
                          kFloat * (std::abs(slope) * image_.height + std::abs(offset));
     const double inside = mid_u - (slope * mid_v + offset);
     if (std::abs(inside) <= slack) {  // a sliver: which side is which?
@@ -119,11 +184,14 @@ void FaceProjector::set_edges(std::span<const ImageCorner> corners, double margi
   }
 }
 
-void FaceProjector::set_depth(const Eigen::Vector3d& normal, double distance_m, double farthest_m,
+void FaceProjector::set_depth(const FlatFaces::Face& face, const Corners& corners,
                               FacePolygon& polygon) const {
   // A point at depth z in the direction (x, y, 1) is on the plane: z · normal · (x, y, 1) =
   // distance.
   constexpr double kFlattest = 0.01;
+  const double height_m = this->height_m(face), distance_m = std::abs(height_m);
+  const Eigen::Vector3d outwards = R_cam_world_ * face.normal;
+  const Eigen::Vector3d normal = height_m > 0 ? Eigen::Vector3d(-outwards) : outwards;
   const double rounding = margin_m_ / std::max(distance_m, 1e-30);
   polygon.grazing = rounding > kFlattest;
   if (polygon.grazing) polygon.certain_rows = {0, -1};
@@ -135,9 +203,12 @@ void FaceProjector::set_depth(const Eigen::Vector3d& normal, double distance_m, 
   const double float_error =
       kFloat * (std::abs(a) + std::abs(b) * image_.width + std::abs(c) * image_.height);
   polygon.at_origin = float(a - float_error);
+  const double farthest_m = std::min(corners.farthest_m, window_.farthest_m);
   polygon.least_inverse = float((1 - std::min(rounding, kFlattest)) * (1 - kFloat) / farthest_m);
   polygon.per_u = float(b);
   polygon.per_v = float(c);
+  polygon.nearest_m = polygon.grazing ? 0 : corners.nearest_m * (1 - rounding) - margin_m_;
+  polygon.farthest_m = corners.farthest_m * (1 + rounding) + margin_m_;
 }
 
 }  // namespace vantage::detail

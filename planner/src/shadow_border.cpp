@@ -18,7 +18,7 @@ constexpr std::size_t kBatchTiles = 8;
 /// Which pixels may show shadow and have not been looked at, tile by tile.
 class OpenTiles {
  public:
-  explicit OpenTiles(const ShadowInView& shadow)
+  explicit OpenTiles(const ShadowOutline& shadow)
       : first_{std::uint16_t(shadow.columns.first / kSide),
                std::uint16_t(shadow.rows.first / kSide)},
         last_{std::uint16_t(shadow.columns.last / kSide), std::uint16_t(shadow.rows.last / kSide)},
@@ -48,7 +48,7 @@ class OpenTiles {
 /// Traces tiles from the borders inwards, as long as they may widen the bounds.
 class BorderScan {
  public:
-  BorderScan(const PlanningScene& scene, const PinholeCamera& view, const ShadowInView& shadow)
+  BorderScan(const PlanningScene& scene, const PinholeCamera& view, const ShadowOutline& shadow)
       : scene_(scene),
         view_(view),
         open_(shadow),
@@ -121,7 +121,7 @@ class BorderScan {
 
 std::optional<ShadowBounds> find_shadow_bounds(const PlanningScene& scene,
                                                const PinholeCamera& view,
-                                               const ShadowInView& shadow) {
+                                               const ShadowOutline& shadow) {
   return BorderScan(scene, view, shadow).find();
 }
 

@@ -12,6 +12,6 @@ namespace vantage::detail {
 /// between them need not be known.
 std::optional<ShadowBounds> find_shadow_bounds(const PlanningScene& scene,
                                                const PinholeCamera& view,
-                                               const ShadowInView& shadow);
+                                               const ShadowOutline& shadow);
 
 }  // namespace vantage::detail

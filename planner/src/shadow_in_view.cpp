@@ -18,59 +18,123 @@ bool in_shadow(const StateGrid& grid, const Eigen::Vector3d& point, double margi
   return false;
 }
 
-}  // namespace
-
-ShadowInView::ShadowInView(const PinholeCamera& view, const ShadowRectangles& rectangles,
-                           const StateGrid& grid) {
-  const FaceProjector projector(view, rectangles.largest_coordinate_m);
-  if (rectangles.list.empty()) return;
-  if (!(projector.margin_m() < 0.1 * view.range().near_m)) {
-    farthest_m = view.range().far_m;
-    add_whole_image(view.intrinsics(), view.range());
-    return;
-  }
-  add_faces(projector, view, rectangles, in_shadow(grid, view.centre(), projector.margin_m()));
-  std::sort(faces.begin(), faces.end(),
-            [](const FacePolygon& a, const FacePolygon& b) { return a.nearest_m < b.nearest_m; });
-}
-
-void ShadowInView::add_faces(const FaceProjector& projector, const PinholeCamera& view,
-                             const ShadowRectangles& rectangles, bool from_inside) {
-  // The rays' depths err by a hundredth at most where faces are not seen too flat.
-  constexpr double kRoundingOfDepths = 1.02;
-  std::vector<Eigen::Vector3d> corners(rectangles.corners.size());
-  for (std::size_t i = 0; i < corners.size(); ++i) {
-    corners[i] = projector.to_camera(rectangles.corners[i]);
-    farthest_m = std::max(farthest_m, corners[i].z() * kRoundingOfDepths);
-  }
-  const Eigen::Matrix3d R_cam_world = view.T_world_cam().rotation().transpose();
-  faces.reserve(rectangles.list.size());
-  for (const ShadowRectangle& r : rectangles.list) {
-    const double height_m = r.sign * (view.centre()[r.axis] - r.position_m);
-    if (height_m < -projector.margin_m() && !from_inside) continue;
-    const Eigen::Vector3d seen[] = {corners[r.corners[0]], corners[r.corners[1]],
-                                    corners[r.corners[2]], corners[r.corners[3]]};
-    const Eigen::Vector3d inwards = (height_m > 0 ? -r.sign : r.sign) * R_cam_world.col(r.axis);
-    FacePolygon face;
-    if (!projector.project(seen, inwards, std::abs(height_m), face)) continue;
-    const auto widen = [](PixelSpan& all, const PixelSpan& one) {
-      all = all.last < 0 ? one
-                         : PixelSpan{std::min(all.first, one.first), std::max(all.last, one.last)};
-    };
-    widen(columns, face.columns);
-    widen(rows, face.rows);
-    faces.push_back(face);
-  }
-}
-
-void ShadowInView::add_whole_image(const Intrinsics& image, const DepthRange& range) {
+/// Rays are too uncertain for anything to be drawn: this stands for every face.
+FacePolygon whole_image(const PinholeCamera& view) {
   FacePolygon all{};
-  all.columns = columns = {0, image.width - 1};
-  all.rows = rows = {0, image.height - 1};
+  all.columns = {0, view.intrinsics().width - 1};
+  all.rows = {0, view.intrinsics().height - 1};
   all.certain_rows = {0, -1};
   all.grazing = true;
-  all.least_inverse = float(1 / range.far_m);
-  faces.push_back(all);
+  all.least_inverse = float(1 / view.range().far_m);
+  all.farthest_m = view.range().far_m;
+  return all;
+}
+
+void widen(PixelSpan& all, const PixelSpan& one) {
+  all =
+      all.last < 0 ? one : PixelSpan{std::min(all.first, one.first), std::max(all.last, one.last)};
+}
+
+/// Calls `project(face, polygon)` for the faces that a camera may see, and keeps what that says is
+/// in view.
+template <class Project>
+void add_visible(const FaceProjector& projector, const FlatFaces& faces, bool from_inside,
+                 const Project& project, std::vector<FacePolygon>& polygons) {
+  const double lowest_m = from_inside ? -1e300 : -projector.margin_m();
+  FacePolygon polygon;
+  for (const FlatFaces::Face& face : faces.list) {
+    if (projector.height_m(face) < lowest_m) continue;
+    if (project(face, polygon)) polygons.push_back(polygon);
+  }
+}
+
+bool too_uncertain(const FaceProjector& projector, const PinholeCamera& view) {
+  return !(projector.margin_m() < 0.1 * view.range().near_m);
+}
+
+}  // namespace
+
+ShadowOutline::ShadowOutline(const PinholeCamera& view, const ShadowFaces& all,
+                             const StateGrid& grid) {
+  if (all.shadow.list.empty()) return;
+  const FaceProjector projector(view, all.shadow);
+  if (too_uncertain(projector, view)) {
+    faces.push_back(whole_image(view));
+  } else {
+    add_visible(
+        projector, all.shadow, in_shadow(grid, view.centre(), projector.margin_m()),
+        [&](const auto& face, auto& polygon) { return projector.project_outline(face, polygon); },
+        faces);
+  }
+  for (const FacePolygon& face : faces) widen(columns, face.columns), widen(rows, face.rows);
+}
+
+ShadowInView::ShadowInView(const PinholeCamera& view, const ShadowFaces& all,
+                           const StateGrid& grid) {
+  if (all.shadow.list.empty()) return;
+  add_shadow(view, all, grid);
+  shadow_count = polygons.size();
+  if (shadow_count == 0) return;
+  add_occluders(view, all.occluders);
+  sort();
+}
+
+void ShadowInView::add_shadow(const PinholeCamera& view, const ShadowFaces& all,
+                              const StateGrid& grid) {
+  // The rays' depths err by a hundredth at most where faces are not seen too flat.
+  constexpr double kRoundingOfDepths = 1.02;
+  const FaceProjector projector(view, all.shadow);
+  if (too_uncertain(projector, view)) {
+    farthest_m = view.range().far_m;
+    polygons.push_back(whole_image(view));
+  } else {
+    farthest_m = projector.farthest_m() * kRoundingOfDepths;
+    add_visible(
+        projector, all.shadow, in_shadow(grid, view.centre(), projector.margin_m()),
+        [&](const auto& face, auto& polygon) { return projector.project(face, polygon); },
+        polygons);
+  }
+  for (const FacePolygon& face : polygons) widen(columns, face.columns), widen(rows, face.rows);
+}
+
+void ShadowInView::add_occluders(const PinholeCamera& view, const FlatFaces& occluders) {
+  if (occluders.list.empty()) return;
+  const FaceProjector projector(view, occluders, {columns, rows, farthest_m});
+  if (too_uncertain(projector, view)) return;
+  double last_m = 0;
+  for (const FacePolygon& face : polygons) last_m = std::max(last_m, face.nearest_m);
+  add_visible(
+      projector, occluders, false,
+      [&](const auto& face, auto& polygon) {
+        return projector.project(face, polygon) && polygon.certain_rows.last >= 0 &&
+               polygon.farthest_m < last_m;
+      },
+      polygons);
+}
+
+void ShadowInView::sort() {
+  constexpr int kSteps = 512;
+  double nearest = 1e300, farthest = 0;
+  for (std::size_t i = 0; i < shadow_count; ++i) {
+    nearest = std::min(nearest, polygons[i].nearest_m);
+    farthest = std::max(farthest, polygons[i].nearest_m);
+  }
+  const double per_m = (kSteps - 1) / std::max(farthest - nearest, 1e-9);
+  const auto step = [&](double depth_m) {
+    return int(std::floor(std::clamp((depth_m - nearest) * per_m, -1.0, double(kSteps))));
+  };
+  // An occluder goes to the step behind its farthest point, in front of the faces there.
+  const auto place = [&](std::size_t i) {
+    const FacePolygon& p = polygons[i];
+    return i < shadow_count ? 2 * step(p.nearest_m) + 3 : 2 * step(p.farthest_m) + 4;
+  };
+  std::vector<std::uint32_t> begin(2 * kSteps + 6);
+  for (std::size_t i = 0; i < polygons.size(); ++i) ++begin[std::size_t(place(i)) + 1];
+  for (std::size_t i = 1; i < begin.size(); ++i) begin[i] += begin[i - 1];
+  order.resize(polygons.size());
+  for (std::size_t i = 0; i < polygons.size(); ++i) {
+    order[begin[std::size_t(place(i))]++] = std::uint32_t(i);
+  }
 }
 
 }  // namespace vantage::detail

@@ -1,29 +1,52 @@
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "face_polygon.hpp"
-#include "shadow_rectangles.hpp"
+#include "flat_faces.hpp"
+#include "vantage/planner/planning_scene.hpp"
 #include "vantage/volume/state_grid.hpp"
 
 namespace vantage::detail {
 
-/// The faces of the shadow that a view's rays may meet first, from front to back, as far as they
-/// are on the image and in the depth range. From outside, those are the faces that look at the
-/// camera.
-struct ShadowInView {
+/// What is known before any view: the shadow's faces, and those of what may hide it.
+struct ShadowFaces {
+  FlatFaces shadow, occluders;
+
+  explicit ShadowFaces(const PlanningScene& scene)
+      : shadow(rectangles_of(scene.shadow_faces())),
+        occluders(largest_faces_of(scene.occluders())) {}
+};
+
+/// The faces of the shadow that a view's rays may meet first, as far as they are on the image and
+/// in the depth range: from outside, those that look at the camera. But for their depths.
+struct ShadowOutline {
   std::vector<FacePolygon> faces;
   PixelSpan columns{0, -1}, rows{0, -1};  ///< all of them lie in there
+
+  /// @param grid that the faces were made from.
+  ShadowOutline(const PinholeCamera& view, const ShadowFaces& all, const StateGrid& grid);
+};
+
+/// The same faces, and among them what hides some of them.
+struct ShadowInView {
+  std::vector<FacePolygon> polygons;      ///< the shadow's first, then occluders
+  std::size_t shadow_count = 0;           ///< so many are the shadow's
+  PixelSpan columns{0, -1}, rows{0, -1};  ///< all polygons lie in there
   double farthest_m = 0;                  ///< no shadow is farther, not even at its back
 
-  /// @param rectangles the shadow of `grid`.
-  ShadowInView(const PinholeCamera& view, const ShadowRectangles& rectangles,
-               const StateGrid& grid);
+  /// About from front to back: an occluder comes before those faces of the shadow that are behind
+  /// it for certain, and after all others.
+  std::vector<std::uint32_t> order;
+
+  /// @param grid that the faces were made from.
+  ShadowInView(const PinholeCamera& view, const ShadowFaces& all, const StateGrid& grid);
 
  private:
-  void add_faces(const FaceProjector& projector, const PinholeCamera& view,
-                 const ShadowRectangles& rectangles, bool from_inside);
-  void add_whole_image(const Intrinsics& image, const DepthRange& range);
+  void add_shadow(const PinholeCamera& view, const ShadowFaces& all, const StateGrid& grid);
+  void add_occluders(const PinholeCamera& view, const FlatFaces& occluders);
+  void sort();
 };
 
 }  // namespace vantage::detail

@@ -9,7 +9,6 @@
 #include "depth_weight.hpp"
 #include "shadow_border.hpp"
 #include "shadow_in_view.hpp"
-#include "shadow_rectangles.hpp"
 #include "vantage/raycore/error.hpp"
 #include "view_cover.hpp"
 
@@ -47,7 +46,7 @@ Score sum_of(const std::vector<BoundedBlock>& blocks) {
 
 struct ShadowScorer::Impl {
   PlanningScene scene;
-  detail::ShadowRectangles rectangles;
+  detail::ShadowFaces faces;
   detail::DepthWeight weight;
 
   /// @throws Error bad_input for a view with another depth range: its weights would be others.
@@ -62,11 +61,14 @@ struct ShadowScorer::Impl {
 
   /// What the view may show of the shadow; nothing if it certainly shows none.
   std::optional<ViewCover> bounded_cover(const PinholeCamera& view) const {
-    const ShadowInView shadow(view, rectangles, scene.grid());
-    if (shadow.faces.empty()) return std::nullopt;
+    const ShadowInView shadow(view, faces, scene.grid());
+    if (shadow.shadow_count == 0) return std::nullopt;
     const detail::WeightBound bound = weight.bound(shadow.farthest_m);
     ViewCover cover(shadow.columns, shadow.rows);
-    for (const detail::FacePolygon& face : shadow.faces) cover.draw(face, bound);
+    for (const std::uint32_t i : shadow.order) {
+      const detail::FacePolygon& polygon = shadow.polygons[i];
+      i < shadow.shadow_count ? cover.draw(polygon, bound) : cover.draw_occluder(polygon);
+    }
     return cover;
   }
 
@@ -98,8 +100,7 @@ struct ShadowScorer::Impl {
 };
 
 ShadowScorer::ShadowScorer(const PlanningScene& scene, const DepthRange& range, double depth_power)
-    : impl_(new Impl{scene, detail::ShadowRectangles(scene.shadow_faces()),
-                     detail::DepthWeight(depth_power, range)}) {}
+    : impl_(new Impl{scene, detail::ShadowFaces(scene), detail::DepthWeight(depth_power, range)}) {}
 
 ShadowScorer::~ShadowScorer() = default;
 
@@ -161,7 +162,7 @@ std::vector<ScoreTerm> ShadowScorer::terms(const PinholeCamera& view) const {
 }
 
 std::optional<ShadowBounds> ShadowScorer::shadow_bounds(const PinholeCamera& view) const {
-  const ShadowInView shadow(view, impl_->rectangles, impl_->scene.grid());
+  const detail::ShadowOutline shadow(view, impl_->faces, impl_->scene.grid());
   if (shadow.faces.empty()) return std::nullopt;
   return detail::find_shadow_bounds(impl_->scene, view, shadow);
 }

@@ -148,7 +148,7 @@ struct Node {
     unsure_count.at[i] = bit_count(may.at[i] & ~must.at[i] & ~before);
     some.at[i] = float(std::int32_t(fresh != must.at[i]));
     block.certain[i] = before | must.at[i];
-    block.possible[i] |= may.at[i];
+    block.possible[i] |= may.at[i] & ~before;
   }
   const float largest = d.largest, doubtful = d.doubtful;
   VANTAGE_EACH_ROW(i) {
@@ -197,24 +197,39 @@ void draw_polygon(const FacePolygon& p, const WeightBound& w, int origin_chunk, 
   }
 }
 
+/// Sets the bits of one mask of the blocks.
+template <float PolygonEdge::*kOffset, auto kMask>
+[[gnu::always_inline]] inline void draw_mask(const FacePolygon& p, PixelSpan rows, int origin_chunk,
+                                             int origin_group, int chunks, CoverBlock* blocks) {
+  const Reach reach(p);
+  RowSpans spans;
+  Lanes<std::int32_t> begin, end;
+  for (int group = reach.first_group; group <= reach.last_group; ++group) {
+    find_spans<kOffset>(p, rows, group * kRows, spans);
+    const int block_row = (group - origin_group) * chunks - origin_chunk;
+    for (int chunk = reach.first_chunk; chunk <= reach.last_chunk; ++chunk) {
+      std::uint32_t* mask = blocks[block_row + chunk].*kMask;
+      VANTAGE_EACH_ROW(i) {
+        begin.at[i] = within_block(spans.begin.at[i], chunk * kColumns);
+        end.at[i] = within_block(spans.end.at[i], chunk * kColumns);
+      }
+      VANTAGE_EACH_ROW(i) mask[i] |= span_bits(begin.at[i], end.at[i]);
+    }
+  }
+}
+
 VANTAGE_MULTIVERSION
 void draw_outline(const FacePolygon& p, int origin_chunk, int origin_group, int chunks,
                   CoverBlock* blocks) {
-  const Reach reach(p);
-  RowSpans outer;
-  Lanes<std::int32_t> begin, end;
-  for (int group = reach.first_group; group <= reach.last_group; ++group) {
-    find_spans<&PolygonEdge::outer>(p, p.rows, group * kRows, outer);
-    const int block_row = (group - origin_group) * chunks - origin_chunk;
-    for (int chunk = reach.first_chunk; chunk <= reach.last_chunk; ++chunk) {
-      std::uint32_t* possible = blocks[block_row + chunk].possible;
-      VANTAGE_EACH_ROW(i) {
-        begin.at[i] = within_block(outer.begin.at[i], chunk * kColumns);
-        end.at[i] = within_block(outer.end.at[i], chunk * kColumns);
-      }
-      VANTAGE_EACH_ROW(i) possible[i] |= span_bits(begin.at[i], end.at[i]);
-    }
-  }
+  draw_mask<&PolygonEdge::outer, &CoverBlock::possible>(p, p.rows, origin_chunk, origin_group,
+                                                        chunks, blocks);
+}
+
+VANTAGE_MULTIVERSION
+void draw_inside(const FacePolygon& p, int origin_chunk, int origin_group, int chunks,
+                 CoverBlock* blocks) {
+  draw_mask<&PolygonEdge::inner, &CoverBlock::certain>(p, p.certain_rows, origin_chunk,
+                                                       origin_group, chunks, blocks);
 }
 
 }  // namespace
@@ -227,6 +242,10 @@ ViewCover::ViewCover(PixelSpan columns, PixelSpan rows)
 
 void ViewCover::draw(const FacePolygon& polygon, const WeightBound& weight) {
   draw_polygon(polygon, weight, first_chunk_, first_group_, chunks_, blocks_.data());
+}
+
+void ViewCover::draw_occluder(const FacePolygon& polygon) {
+  draw_inside(polygon, first_chunk_, first_group_, chunks_, blocks_.data());
 }
 
 void ViewCover::draw_possible(const FacePolygon& polygon) {

@@ -22,13 +22,17 @@ struct CoverBlock {
 /// Faces drawn on a view, conservatively: which pixels may show them, and what those count at most.
 ///
 /// Faces are drawn in any order, best from front to back: pixels that a face covers for certain are
-/// left out of those that come later, whose depth there cannot matter.
+/// left out of those that come later, whose depth there cannot matter. What hides faces is drawn
+/// after those that it does not hide.
 class ViewCover {
  public:
   /// Nothing drawn yet; faces will lie within these columns and rows.
   ViewCover(PixelSpan columns, PixelSpan rows);
 
   void draw(const FacePolygon& polygon, const WeightBound& weight);
+
+  /// Something that no ray passes, and that counts nothing.
+  void draw_occluder(const FacePolygon& polygon);
 
   /// Without `certain` and `bound`.
   void draw_possible(const FacePolygon& polygon);

@@ -170,5 +170,11 @@ std::size_t Scene::object_count() const noexcept {
 std::size_t Scene::triangle_count() const noexcept {
   return impl_->triangle_count;
 }
+std::size_t Scene::triangle_count(ObjectId object) const noexcept {
+  return impl_->triangles[object].count;
+}
+std::array<Eigen::Vector3d, 3> Scene::corners(ObjectId object, std::size_t triangle) const {
+  return impl_->triangles[object].corners(std::uint32_t(triangle));
+}
 
 }  // namespace vantage

@@ -45,7 +45,8 @@ ObjectTriangles attach_mesh(const SceneImpl& impl, RTCScene scene, const Triangl
     return static_cast<decltype(items.data())>(buffer);
   };
   const ObjectTriangles copies{fill(RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, mesh.vertices()),
-                               fill(RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT3, mesh.triangles())};
+                               fill(RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT3, mesh.triangles()),
+                               mesh.triangles().size()};
   attach(impl, scene, geometry, id);
   return copies;
 }
@@ -112,7 +113,9 @@ ObjectId SceneBuilder::add_instance(std::shared_ptr<const TriangleMesh> mesh,
   transform << rotation, place.cast<float>();
   RTCGeometry geometry = rtcNewGeometry(scene.device, RTC_GEOMETRY_TYPE_INSTANCE);
   const Impl::SharedMesh& shared = impl_->shared_mesh(mesh);
-  scene.triangles[id] = {shared.triangles.vertices, shared.triangles.triangles, true, T_world_mesh};
+  scene.triangles[id] = shared.triangles;
+  scene.triangles[id].is_instance = true;
+  scene.triangles[id].T_world_mesh = T_world_mesh;
   rtcSetGeometryInstancedScene(geometry, shared.scene);
   rtcSetGeometryTimeStepCount(geometry, 1);
   rtcSetGeometryTransform(geometry, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, transform.data());

@@ -15,6 +15,7 @@ namespace vantage::detail {
 struct ObjectTriangles {
   const Eigen::Vector3f* vertices = nullptr;
   const Triangle* triangles = nullptr;
+  std::size_t count = 0;
   bool is_instance = false;
   Pose T_world_mesh = {};  ///< of an instance
 

@@ -13,6 +13,8 @@
 #include "support/expect_error.hpp"
 #include "support/scene_count.hpp"
 #include "vantage/planner/shadow_scorer.hpp"
+#include "vantage/volume/classify.hpp"
+#include "wall_world.hpp"
 
 namespace vantage {
 namespace {
@@ -130,6 +132,22 @@ TEST_CASE("the bound of a shadow score holds for views from anywhere") {
     }
   }
   CHECK(tight > test::enough(300));
+}
+
+TEST_CASE("what hides the shadow takes its part of the bound") {
+  const WorldModel world = test::wall_world();
+  const auto grid = classify(world, GridGeometry::covering(test::random_workcell_area(), 0.01));
+  const PlanningScene scene(world, grid, OccluderMode::mesh);
+  REQUIRE(scene.shadow_centres().size > 100);
+  const auto from = [](const Eigen::Vector3d& eye) {
+    return PinholeCamera({160, 120, 175, 175, 79.5, 59.5}, Pose::looking_at(eye, {0, 0, 0.08}),
+                         {0.1, 2});
+  };
+  const ShadowScorer scorer(scene, {0.1, 2}, 6);
+  // From where the camera stood that sees none of it, the wall is in front of most.
+  const Score behind = scorer.upper_bound(from({0, 0.6, 0.15}));
+  CHECK(scorer.upper_bound(from({0, -0.6, 0.15})) < behind / 4);
+  CHECK(score_of(scorer, from({0, 0.6, 0.15})) > behind / 2);
 }
 
 TEST_CASE("shadow scores are the same at 1, 2, 3 and 8 threads") {

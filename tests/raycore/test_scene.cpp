@@ -231,3 +231,22 @@ TEST_CASE("a mesh that is refused or empty leaves the scene usable") {
   CHECK(builder.add_box(unit) == 0);
   CHECK(builder.build()->occluded({0.5f, 0.4f, 2}, {0.5f, 0.4f, -1}));
 }
+
+TEST_CASE("the triangles that a scene says it has are those that rays meet") {
+  for (std::uint32_t seed = 0; seed < 8; ++seed) {
+    CAPTURE(seed);
+    const RandomScene random = random_scene(seed, seed % 2 == 0);
+    std::size_t count = 0;
+    for (ObjectId object = 0; object < random.scene->object_count(); ++object) {
+      for (std::size_t i = 0; i < random.scene->triangle_count(object); ++i, ++count) {
+        const WorldTriangle* triangle = random.reference.find(object, std::uint32_t(i));
+        REQUIRE(triangle != nullptr);
+        const auto corners = random.scene->corners(object, i);
+        for (std::size_t c = 0; c < 3; ++c) {
+          CHECK((corners[c] - triangle->corners[c]).norm() < 1e-6);
+        }
+      }
+    }
+    CHECK(count == random.scene->triangle_count());
+  }
+}

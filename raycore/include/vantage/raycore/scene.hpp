@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -93,6 +94,10 @@ class VANTAGE_API Scene {
 
   std::size_t object_count() const noexcept;
   std::size_t triangle_count() const noexcept;  ///< an instance counts its mesh's triangles
+
+  /// An object's triangles, as rays meet them: world frame; counter-clockwise from outside.
+  std::size_t triangle_count(ObjectId object) const noexcept;
+  std::array<Eigen::Vector3d, 3> corners(ObjectId object, std::size_t triangle) const;
 
   /// Whether anything touches the closed segment between two points.
   bool occluded(const Eigen::Vector3f& from, const Eigen::Vector3f& to) const;
