@@ -1,6 +1,7 @@
 // First hits of tiles of pixels: a camera and the tiles' places in, depths and objects out. Leaner
 // than closest_hits, which reads directions from memory and writes normals to it.
 
+#include <algorithm>
 #include <limits>
 
 #include "batch.hpp"
@@ -13,6 +14,23 @@
 namespace vantage {
 namespace detail {
 namespace {
+
+constexpr int kSide = PixelTile::kSide;
+
+[[gnu::always_inline]] inline void load(const TileRays& rays, float t_far, RTCRayHit16& packet) {
+#pragma GCC unroll 1
+  for (std::size_t i = 0; i < kPacketWidth; ++i) packet.ray.dir_x[i] = rays.x[i];
+#pragma GCC unroll 1
+  for (std::size_t i = 0; i < kPacketWidth; ++i) packet.ray.dir_y[i] = rays.y[i];
+#pragma GCC unroll 1
+  for (std::size_t i = 0; i < kPacketWidth; ++i) packet.ray.dir_z[i] = rays.z[i];
+#pragma GCC unroll 1
+  for (std::size_t i = 0; i < kPacketWidth; ++i) {
+    packet.ray.tfar[i] = t_far;
+    packet.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
+    packet.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
+  }
+}
 
 [[gnu::always_inline]] inline void store(const RTCRayHit16& packet, TileHits& hits) {
 #pragma GCC unroll 1
@@ -32,6 +50,8 @@ void trace_tiles(const PacketJob& job, const Intrinsics& k, const PixelRotation&
   QueryContext context(job.coherent);
   alignas(64) RTCRayHit16 packet{};
   alignas(64) int valid[kPacketWidth];
+  TileRays rays[kTilesAhead];
+  TilePlaces places;
   prepare(packet.ray);
   for (std::size_t i = 0; i < kPacketWidth; ++i) {
     packet.ray.org_x[i] = origin.x();
@@ -39,16 +59,21 @@ void trace_tiles(const PacketJob& job, const Intrinsics& k, const PixelRotation&
     packet.ray.org_z[i] = origin.z();
     valid[i] = -1;
   }
-  for (std::size_t tile = 0; tile < count; ++tile) {
-    fill_directions(k, R, tiles[tile], packet.ray);
-#pragma GCC unroll 1
-    for (std::size_t i = 0; i < kPacketWidth; ++i) {
-      packet.ray.tfar[i] = job.t_far;
-      packet.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
-      packet.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
+  for (std::size_t first = 0; first < count; first += kTilesAhead) {
+    const std::size_t last = std::min(first + kTilesAhead, count);
+    places.set(k, tiles + first, int(last - first));
+    for (std::size_t tile = first; tile < last; ++tile) {
+      const double* x = places.x + kSide * (tile - first);
+      const double* y = places.y + kSide * (tile - first);
+      fill_axis<0>(R, x, y, rays[tile - first].x);
+      fill_axis<1>(R, x, y, rays[tile - first].y);
+      fill_axis<2>(R, x, y, rays[tile - first].z);
     }
-    context.intersect16(valid, job.scene, &packet);
-    store(packet, hits[tile]);
+    for (std::size_t tile = first; tile < last; ++tile) {
+      load(rays[tile - first], job.t_far, packet);
+      context.intersect16(valid, job.scene, &packet);
+      store(packet, hits[tile]);
+    }
   }
 }
 

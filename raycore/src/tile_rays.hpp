@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+
 #include "packet.hpp"
 #include "pixel_direction.hpp"
 #include "vantage/raycore/camera.hpp"
@@ -12,27 +14,66 @@ namespace vantage::detail {
 
 static_assert(PixelTile::kPixels == int(kPacketWidth));
 
+// Directions are made a few packets ahead of Embree: it loads them whole, and would wait for those
+// that have only just been stored in parts.
+constexpr std::size_t kTilesAhead = 16;
+
 /// The directions of a tile's pixels, as PinholeCamera::pixel_ray has them.
+struct alignas(64) TileRays {
+  float x[kPacketWidth], y[kPacketWidth], z[kPacketWidth];
+};
+
+/// Where a few tiles' columns and rows are in the image plane at depth 1, four of each for a tile.
+struct TilePlaces {
+  alignas(64) double x[kTilesAhead * PixelTile::kSide], y[kTilesAhead * PixelTile::kSide];
+
+  [[gnu::always_inline]] inline void set(const Intrinsics& k, const PixelTile* tiles, int count) {
+    for (int i = 0; i < count; ++i) {
+      for (int j = 0; j < PixelTile::kSide; ++j)
+        x[PixelTile::kSide * i + j] = PixelTile::kSide * tiles[i].column + j;
+      set_row(k, tiles, i);
+    }
+#pragma GCC unroll 1
+    for (int i = 0; i < PixelTile::kSide * count; ++i) x[i] = (x[i] - k.cx) / k.fx;
+  }
+
+  /// Neighbours are often in one row; divisions are what takes long here.
+  [[gnu::always_inline]] inline void set_row(const Intrinsics& k, const PixelTile* tiles, int i) {
+    double* const here = y + PixelTile::kSide * i;
+    if (i > 0 && tiles[i].row == tiles[i - 1].row) {
+      std::copy(here - PixelTile::kSide, here, here);
+    } else {
+      for (int j = 0; j < PixelTile::kSide; ++j)
+        here[j] = (PixelTile::kSide * tiles[i].row + j - k.cy) / k.fy;
+    }
+  }
+};
+
+/// One coordinate of a tile's directions, as PixelRotation::turned has it to the bit. Products are
+/// one for each column and one for each row.
+template <int kAxis>
+[[gnu::always_inline]] inline void fill_axis(const PixelRotation& R, const double* x,
+                                             const double* y, float* direction) {
+  const double at_depth = R.r[3 * kAxis + 2];
+  double across[PixelTile::kSide];
+#pragma GCC unroll 1
+  for (int j = 0; j < PixelTile::kSide; ++j) across[j] = R.r[3 * kAxis] * x[j];
+  for (int i = 0; i < PixelTile::kSide; ++i) {
+    const double down = R.r[3 * kAxis + 1] * y[i];
+#pragma GCC unroll 1
+    for (int j = 0; j < PixelTile::kSide; ++j)
+      direction[PixelTile::kSide * i + j] = float(across[j] + down + at_depth);
+  }
+}
+
+/// The directions of one tile's pixels.
 [[gnu::always_inline]] inline void fill_directions(const Intrinsics& k, const PixelRotation& R,
                                                    PixelTile tile, RTCRay16& rays) {
-  constexpr int kSide = PixelTile::kSide;
-  double across[kSide], down[kSide];
-#pragma GCC unroll 1
-  for (int i = 0; i < kSide; ++i) {
-    across[i] = (kSide * tile.column + i - k.cx) / k.fx;
-    down[i] = (kSide * tile.row + i - k.cy) / k.fy;
-  }
-  double x[kPacketWidth], y[kPacketWidth];
-  for (int row = 0; row < kSide; ++row) {
-    for (int i = 0; i < kSide; ++i) x[kSide * row + i] = across[i];
-    for (int i = 0; i < kSide; ++i) y[kSide * row + i] = down[row];
-  }
-#pragma GCC unroll 1
-  for (std::size_t i = 0; i < kPacketWidth; ++i) rays.dir_x[i] = float(R.turned<0>(x[i], y[i]));
-#pragma GCC unroll 1
-  for (std::size_t i = 0; i < kPacketWidth; ++i) rays.dir_y[i] = float(R.turned<1>(x[i], y[i]));
-#pragma GCC unroll 1
-  for (std::size_t i = 0; i < kPacketWidth; ++i) rays.dir_z[i] = float(R.turned<2>(x[i], y[i]));
+  TilePlaces place;
+  place.set(k, &tile, 1);
+  fill_axis<0>(R, place.x, place.y, rays.dir_x);
+  fill_axis<1>(R, place.x, place.y, rays.dir_y);
+  fill_axis<2>(R, place.x, place.y, rays.dir_z);
 }
 
 /// @throws Error bad_input unless Embree may see the rays of every tile of the camera.
