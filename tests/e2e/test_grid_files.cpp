@@ -8,7 +8,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kArguments = " --servo 0 --count 1 --save-grid --save-surface -o '";
+constexpr const char* kArguments =
+    " --servo 0 --polish 0 --count 1 --save-grid --save-surface -o '";
 
 void check_in_python(const fs::path& plan) {
   test::check_in_python("check_grid_files.py", plan);

@@ -73,6 +73,19 @@ TEST_CASE("tables 9.1 to 9.4: every iteration, the pick marked") {
   CHECK(servo_table(two_scenes().scenes[1]).rows.empty());
 }
 
+TEST_CASE("tables 9.1 to 9.4: what polishing made of it is no iteration of the thesis' servo") {
+  PlanningEvaluation evaluation = two_scenes();
+  evaluation.polished_views = 2;
+  Pick& pick = *evaluation.scenes[0].sets[0].runs[1].pick;
+  pick.steps.push_back({"polish", {3, 8e-4, 8e-4}});
+  pick.best_step = 2;
+  const ReportTable table = servo_table(evaluation.scenes[0]);
+  CHECK(table.rows[6].cells == Cells{"–", "polish", "3", "800.0", "100.0 %", "800.0", "", "", ""});
+  CHECK(table.rows[6].kind == RowKind::emphasis);
+  CHECK(table.rows[5].kind == RowKind::plain);
+  CHECK(has(comparison_table(evaluation, "full").title, "servo 5, 2 polished"));
+}
+
 TEST_CASE("a scene without shadow is said to be one") {
   const PlanningEvaluation evaluation = two_scenes();
   CHECK(remarks_on(evaluation.scenes[0]).empty());
