@@ -25,6 +25,8 @@ struct LatticeAxis {
     }
   }
 
+  int cells() const { return int(per_cell.size()); }
+
   /// The cell of a coordinate, in units; that at the end for one beyond it.
   int cell(double at) const {
     return int(std::upper_bound(vertices.begin() + 1, vertices.end() - 1, at) - vertices.begin()) -

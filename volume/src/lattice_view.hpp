@@ -37,6 +37,11 @@ class LatticeView {
   RangeSeen ask(const CellRange& blocks) const;
   BlockSeen compare(const Eigen::Vector3i& block) const;
 
+  /// How far inside of the seen volume a point of the grid's frame is, metres; negative outside.
+  /// Exact at the triangles' planes, at the rectangle's borders, and at those of holes; farther
+  /// away only the sign is, and near edges the nearest of these planes counts.
+  double depth_in_seen_m(const Eigen::Vector3d& p_grid) const;
+
  private:
   struct BoxOnImage;
 
@@ -44,6 +49,9 @@ class LatticeView {
   LatticeCells cells_under(const ImageRect& rect) const;
   std::optional<bool> ask_planes(const LatticeCells& cells, const Extent& box,
                                  double margin_m) const;
+  bool has_cell(int i, int j) const;
+  double distance_to_sides_m(const Eigen::Array2d& pixel, const Eigen::Array2d& metres_per_pixel,
+                             int i, int j) const;
   bool planes_of_cell(int i, int j, Eigen::Vector3d (&planes)[2]) const;
 
   const GridFrame& frame_;
