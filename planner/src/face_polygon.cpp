@@ -13,11 +13,13 @@ namespace {
 constexpr double kRoundingOfSpans_px = 1e-3;
 constexpr double kFloat = 0x1p-21;  // some roundings, one after the other
 
-/// The whole numbers in [low, high] that are in a span.
+/// The whole numbers in [low, high] that are in a span, which has no negative ones. Conversions cut
+/// off; calls that round take longer than all else here.
 PixelSpan whole(double low, double high, const PixelSpan& span) {
-  const double first = std::ceil(std::max(low, double(span.first)));
-  const double last = std::floor(std::min(high, double(span.last)));
-  return first <= last ? PixelSpan{int(first), int(last)} : PixelSpan{0, -1};
+  const double l = std::clamp(low, double(span.first), span.last + 1.0);
+  const double h = std::clamp(high, -1.0, double(span.last));
+  const int first = int(l) + (double(int(l)) < l), last = int(h + 1) - 1;
+  return first <= last ? PixelSpan{first, last} : PixelSpan{0, -1};
 }
 
 double farthest_tangent(const Intrinsics& k) {

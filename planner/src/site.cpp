@@ -66,12 +66,13 @@ bool Site::matters(const Ranking& ranking) const {
 }
 
 void Site::score(const Ranking& ranking, const StopToken& stop) {
-  // Views with one centre share their rays; the group that promises most goes first, so that the
-  // others have to beat it.
+  // Views with one centre may share their rays; the group that promises most goes first, so that
+  // the others have to beat it.
+  const bool together = tools_->scorer->shares_rays();
   std::vector<std::vector<Step*>> groups;
   for (Step& step : steps_) {
     const auto group = std::find_if(groups.begin(), groups.end(), [&](const auto& members) {
-      return members.front()->view.centre() == step.view.centre();
+      return together && members.front()->view.centre() == step.view.centre();
     });
     group == groups.end() ? void(groups.push_back({&step})) : group->push_back(&step);
   }

@@ -32,6 +32,7 @@ class VANTAGE_API LightScorer final : public ViewScorer {
              std::span<ScoreBound> results, const StopToken& stop = {}) const override;
   using ViewScorer::score;
   std::vector<ScoreTerm> terms(const PinholeCamera& view) const override;
+  bool shares_rays() const noexcept override { return true; }
 
  private:
   LightScorer(const detail::SurfaceSamples& samples, const WorldModel& world);

@@ -69,6 +69,10 @@ class VANTAGE_API ViewScorer {
   /// What a view's score is made of, the score itself last.
   virtual std::vector<ScoreTerm> terms(const PinholeCamera& view) const = 0;
 
+  /// Whether views with one centre are scored faster together than one after the other, each with
+  /// the score of the one before as what it needs.
+  virtual bool shares_rays() const noexcept { return false; }
+
   /// The exact score of one view; nothing known if `stop` asked to stop.
   ScoreBound score(const PinholeCamera& view, const StopToken& stop = {}) const;
 };

@@ -24,6 +24,7 @@ class VANTAGE_API VoxelScorer final : public ViewScorer {
              std::span<ScoreBound> results, const StopToken& stop = {}) const override;
   using ViewScorer::score;
   std::vector<ScoreTerm> terms(const PinholeCamera& view) const override;
+  bool shares_rays() const noexcept override { return true; }
 
   /// 1 or 0 for every shadow voxel, in the order of `StateGrid::centres`.
   std::vector<std::uint8_t> revealed(const PinholeCamera& view) const;
