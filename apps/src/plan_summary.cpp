@@ -156,8 +156,10 @@ std::string summary_of(const Plan& plan, const ShadowRegions* regions,
   if (plan.classified == nullptr) return "stopped before the work area was classified: no view\n";
   std::string text = plan.best() != nullptr ? best_summary(plan) : no_view_summary(plan);
   if (plan.stopped != StopReason::none) {
-    text += fmt::format("partial    {} of {} candidates were finished\n", plan.finished,
-                        plan.candidates.size());
+    const bool searched = plan.finished == plan.candidates.size();
+    text += fmt::format("partial    {} of {} candidates were finished{}\n", plan.finished,
+                        plan.candidates.size(),
+                        searched ? ", but not what comes after: polishing, further views" : "");
   }
   const std::string rejected = rejections(plan);
   if (!rejected.empty()) text += "rejected   " + rejected + "\n";

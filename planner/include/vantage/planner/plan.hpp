@@ -54,8 +54,8 @@ struct NextView {
   std::uint64_t revealed_voxels = 0;  ///< of the shadow that the views before it left
 };
 
-/// The answer. With `stopped` other than none it is partial: the best of what was finished; if not
-/// even the classification was, both grids are null.
+/// The answer. With `stopped` other than none it is partial: the best of what was finished, not
+/// polished if that was not; if not even the classification was finished, both grids are null.
 struct Plan {
   PlanRequest request;  ///< as it was used
   std::string score_unit_name = {};
