@@ -50,7 +50,7 @@ ViewCount::ViewCount(const PointPackets& set, const Scene& occluders,
     : set_(set), occluders_(occluders), views_(views), needed_(needed) {}
 
 void ViewCount::run(const StopToken& stop, std::span<ScoreBound> results) {
-  active_.reserve(views_.size());
+  active_.reserve(views_.size()), found_.reserve(2 * kBlocksPerParent);
   for (std::size_t i = 0; i < views_.size(); ++i) admit(i, results[i]);
   while (!active_.empty() && done_ < set_.packets()) {
     if (stop.stop_requested()) {
@@ -65,23 +65,33 @@ void ViewCount::run(const StopToken& stop, std::span<ScoreBound> results) {
   for (const View& view : active_) results[view.index] = {ScoreBound::Known::exact, view.bound};
 }
 
-/// Takes a view in if its boxes do not say enough.
+/// Takes a view in if its boxes do not say enough. Most do: what is noted of them is written out
+/// for those only that are taken in.
 void ViewCount::admit(std::size_t index, ScoreBound& result) {
   const ViewFrustum frustum(views_[index], set_.largest_coordinate);
-  View view{index, 0, {}};
+  Score bound = 0;
+  found_.clear();
   for_each_in_view(set_, frustum, [&](std::size_t level, std::size_t box, InView in_view) {
-    view.bound += set_.points_below(level, box);
-    if (in_view == InView::all && level + 1 == set_.levels.size()) return;
-    if (view.blocks.empty()) view.blocks.resize(set_.blocks(), InView::none);
-    fill_blocks(set_, level, box, in_view, view.blocks);
+    bound += set_.points_below(level, box);
+    found_.push_back({level, box, in_view});
   });
-  if (view.bound == 0) {
+  if (bound == 0) {
     result = {ScoreBound::Known::exact, 0};
-  } else if (view.bound < needed_[index]) {
-    result = {ScoreBound::Known::at_most, view.bound};
+  } else if (bound < needed_[index]) {
+    result = {ScoreBound::Known::at_most, bound};
   } else {
-    active_.push_back(std::move(view));
+    active_.push_back({index, bound, blocks_found()});
   }
+}
+
+std::vector<InView> ViewCount::blocks_found() const {
+  const FoundBox& first = found_.front();
+  if (first.in_view == InView::all && first.level + 1 == set_.levels.size()) return {};
+  std::vector<InView> blocks(set_.blocks(), InView::none);
+  for (const FoundBox& found : found_) {
+    fill_blocks(set_, found.level, found.box, found.in_view, blocks);
+  }
+  return blocks;
 }
 
 /// No view can be out before as many packets as its bound has points to lose.

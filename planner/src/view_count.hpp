@@ -30,9 +30,15 @@ class ViewCount {
     Score bound;                 ///< points that it may see, as far as is known
     std::vector<InView> blocks;  ///< by block; empty: the whole set is in view
   };
+  /// A box of points that may be in view.
+  struct FoundBox {
+    std::size_t level, box;
+    InView in_view;
+  };
   using Masks = std::vector<std::uint16_t>;
 
   void admit(std::size_t index, ScoreBound& result);
+  std::vector<InView> blocks_found() const;
   std::size_t next_batch_size() const;
   void look_at(std::span<const std::uint32_t> packets);
   Score find_in_view(const View& view, std::span<const std::uint32_t> packets,
@@ -44,7 +50,8 @@ class ViewCount {
   std::span<const PinholeCamera> views_;
   std::span<const Score> needed_;
   std::vector<View> active_;
-  std::size_t done_ = 0;  ///< packets
+  std::vector<FoundBox> found_;  ///< of the view that is looked at
+  std::size_t done_ = 0;         ///< packets
 
   // Of the packets of one batch: points that are no copies, that a view has in view (view by
   // view), that any view has in view, and that are hidden.
