@@ -61,11 +61,18 @@ LatticeProbe::LatticeProbe(const DepthLattice& lattice)
 
 ProbeView::ProbeView(const LatticeProbe& lattice_probe, const Eigen::Vector3d& relative_origin)
     : probe(&lattice_probe) {
+  const Eigen::Matrix3d& M = lattice_probe.pixels_from_world;
   for (int row = 0; row < 3; ++row) {
     origin[row] = float(relative_origin[row]);
-    for (int col = 0; col < 3; ++col) {
-      m[3 * row + col] = float(lattice_probe.pixels_from_world(row, col));
-    }
+    for (int col = 0; col < 3; ++col) m[3 * row + col] = float(M(row, col));
+  }
+  const AxisLookup &columns = lattice_probe.columns, &rows = lattice_probe.rows;
+  const Eigen::RowVector3d planes[4] = {
+      M.row(0) - double(columns.first) * M.row(2), double(columns.last) * M.row(2) - M.row(0),
+      M.row(1) - double(rows.first) * M.row(2), double(rows.last) * M.row(2) - M.row(1)};
+  for (int i = 0; i < 4; ++i) {
+    for (int col = 0; col < 3; ++col) borders[i][col] = float(planes[i][col]);
+    borders[i][3] = float(planes[i].dot(relative_origin));
   }
 }
 

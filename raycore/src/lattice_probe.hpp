@@ -37,10 +37,16 @@ struct LatticeProbe {
 /// A probe for points relative to one ray origin.
 struct ProbeView {
   const LatticeProbe* probe;
-  float m[9];       ///< pixels_from_world, row by row
-  float origin[3];  ///< of the rays, relative to the lattice's camera
+  float m[9];           ///< pixels_from_world, row by row
+  float origin[3];      ///< of the rays, relative to the lattice's camera
+  float borders[4][4];  ///< planes of the image's borders: n · p + w > 0 inside, p from the origin
 
   ProbeView(const LatticeProbe& lattice_probe, const Eigen::Vector3d& relative_origin);
+};
+
+/// Where sixteen points appear in a lattice's image.
+struct LanePixels {
+  alignas(64) float u[kPacketWidth], v[kPacketWidth], inverse_z[kPacketWidth];
 };
 
 // "GCC unroll 1" before the loops over a packet's lanes: unrolled before the vectoriser comes to
@@ -70,39 +76,50 @@ struct ProbeView {
   }
 }
 
-/// Of the lanes with `wanted` -1, sets `inside` to -1 where the ray's point at t[i] is inside the
-/// lattice's volume, and to 0 where it is not.
-/// @returns whether any is inside.
-[[gnu::always_inline]] inline bool probe_lanes(const ProbeView& view, const float* dir_x,
-                                               const float* dir_y, const float* dir_z,
-                                               const float* t, const int* wanted, int* inside) {
-  const LatticeProbe& probe = *view.probe;
+[[gnu::always_inline]] inline void project_lanes(const ProbeView& view, const float* dir_x,
+                                                 const float* dir_y, const float* dir_z,
+                                                 const float* t, LanePixels& pixels) {
   const float* m = view.m;
   const float x0 = view.origin[0], y0 = view.origin[1], z0 = view.origin[2];
-  const float left = probe.columns.first, right = probe.columns.last;
-  const float top = probe.rows.first, bottom = probe.rows.last;
-  alignas(64) float u[kPacketWidth], v[kPacketWidth], inverse_z[kPacketWidth];
-  int any = 0;
 #pragma GCC unroll 1
   for (std::size_t i = 0; i < kPacketWidth; ++i) {
     const float x = x0 + t[i] * dir_x[i], y = y0 + t[i] * dir_y[i], z = z0 + t[i] * dir_z[i];
-    inverse_z[i] = 1 / (m[6] * x + m[7] * y + m[8] * z);
-    u[i] = (m[0] * x + m[1] * y + m[2] * z) * inverse_z[i];
-    v[i] = (m[3] * x + m[4] * y + m[5] * z) * inverse_z[i];
-    const int in_image = -int((inverse_z[i] > 0) & (u[i] >= left) & (u[i] <= right) &
-                              (v[i] >= top) & (v[i] <= bottom));
-    inside[i] = in_image & wanted[i];
-    any |= inside[i];
+    const float inverse_z = 1 / (m[6] * x + m[7] * y + m[8] * z);
+    pixels.u[i] = (m[0] * x + m[1] * y + m[2] * z) * inverse_z;
+    pixels.v[i] = (m[3] * x + m[4] * y + m[5] * z) * inverse_z;
+    pixels.inverse_z[i] = inverse_z;
   }
-  if (any == 0) return false;
+}
 
+/// Clears the lanes (-1 or 0) whose points are not within the lattice's outer borders.
+/// @returns whether any is left.
+[[gnu::always_inline]] inline bool keep_in_image(const LatticeProbe& probe,
+                                                 const LanePixels& pixels, int* lanes) {
+  const float left = probe.columns.first, right = probe.columns.last;
+  const float top = probe.rows.first, bottom = probe.rows.last;
+  int any = 0;
+#pragma GCC unroll 1
+  for (std::size_t i = 0; i < kPacketWidth; ++i) {
+    const float u = pixels.u[i], v = pixels.v[i];
+    lanes[i] &=
+        -int((pixels.inverse_z[i] > 0) & (u >= left) & (u <= right) & (v >= top) & (v <= bottom));
+    any |= lanes[i];
+  }
+  return any != 0;
+}
+
+/// Clears the lanes whose points are not in front of the surface. Outside of the image the nearest
+/// cell's planes count.
+/// @returns whether any is left.
+[[gnu::always_inline]] inline bool keep_in_front(const LatticeProbe& probe,
+                                                 const LanePixels& pixels, int* lanes) {
   alignas(64) int column[kPacketWidth], row[kPacketWidth];
   alignas(64) float across[kPacketWidth], down[kPacketWidth];
-  find_cells(probe.columns, u, column, across);
-  find_cells(probe.rows, v, row, down);
+  find_cells(probe.columns, pixels.u, column, across);
+  find_cells(probe.rows, pixels.v, row, down);
   const float* inverse_depth = probe.inverse_depth.data();
   const int width = probe.width;
-  any = 0;
+  int any = 0;
 #pragma GCC unroll 1
   for (std::size_t i = 0; i < kPacketWidth; ++i) {
     const int at = row[i] * width + column[i];
@@ -114,10 +131,25 @@ struct ProbeView {
     const float to_b = upper ? s : 1 - r, to_d = upper ? r : 1 - s;
     const float surface = corner + to_b * (b - corner) + to_d * (d - corner);
     // A cell with an unknown corner is not there, whichever half the point is in.
-    inside[i] &= -int((inverse_z[i] > surface) & (a + c == a + c));
-    any |= inside[i];
+    lanes[i] &= -int((pixels.inverse_z[i] > surface) & (a + c == a + c));
+    any |= lanes[i];
   }
   return any != 0;
+}
+
+/// Shortens t_stop to where rays that are within the outer borders cross one of them.
+[[gnu::always_inline]] inline void stop_at_borders(const ProbeView& view, const float* dir_x,
+                                                   const float* dir_y, const float* dir_z,
+                                                   float* t_stop) {
+  for (const float(&plane)[4] : view.borders) {
+    const float nx = plane[0], ny = plane[1], nz = plane[2], w = plane[3];
+#pragma GCC unroll 1
+    for (std::size_t i = 0; i < kPacketWidth; ++i) {
+      const float slope = nx * dir_x[i] + ny * dir_y[i] + nz * dir_z[i];
+      const float t = -w / slope, old = t_stop[i];
+      t_stop[i] = (slope < 0) & (t < old) ? t : old;
+    }
+  }
 }
 
 }  // namespace vantage::detail

@@ -23,12 +23,12 @@ class CellMask {
 
   int width() const { return width_; }
   int height() const { return height_; }
-  bool has(int i, int j) const {
-    return i >= 0 && j >= 0 && i < width_ && j < height_ && present_[at(i, j)] != 0;
-  }
+  bool has(int i, int j) const { return contains(i, j) && present_[at(i, j)] != 0; }
+  bool is_hole(int i, int j) const { return contains(i, j) && present_[at(i, j)] == 0; }
   void take(int i, int j) { present_[at(i, j)] = 0; }
 
  private:
+  bool contains(int i, int j) const { return i >= 0 && j >= 0 && i < width_ && j < height_; }
   std::size_t at(int i, int j) const {
     return std::size_t(j) * std::size_t(width_) + std::size_t(i);
   }
@@ -110,19 +110,19 @@ std::vector<RTCGrid> present_rectangles(const DepthLattice& lattice) {
   return rectangles;
 }
 
-std::vector<Triangle> border_triangles(const DepthLattice& lattice) {
+std::vector<Triangle> hole_triangles(const DepthLattice& lattice) {
   const CellMask cells(lattice);
   const auto width = std::uint32_t(lattice.width()), apex = std::uint32_t(lattice.depth.size());
   std::vector<Triangle> triangles;
   for (int j = 0; j < cells.height(); ++j) {
     for (int i = 0; i < cells.width(); ++i) {
       if (!cells.has(i, j)) continue;
-      const std::uint32_t a = std::uint32_t(j) * width + std::uint32_t(i), b = a + 1, c = b + width,
-                          d = a + width;  // clockwise on screen
-      if (!cells.has(i, j - 1)) triangles.push_back({b, a, apex});
-      if (!cells.has(i + 1, j)) triangles.push_back({c, b, apex});
-      if (!cells.has(i, j + 1)) triangles.push_back({d, c, apex});
-      if (!cells.has(i - 1, j)) triangles.push_back({a, d, apex});
+      const std::uint32_t a = std::uint32_t(j) * width + std::uint32_t(i), b = a + 1;
+      const std::uint32_t c = b + width, d = a + width;  // a, b, c, d: clockwise in the image
+      if (cells.is_hole(i, j - 1)) triangles.push_back({b, a, apex});
+      if (cells.is_hole(i + 1, j)) triangles.push_back({c, b, apex});
+      if (cells.is_hole(i, j + 1)) triangles.push_back({d, c, apex});
+      if (cells.is_hole(i - 1, j)) triangles.push_back({a, d, apex});
     }
   }
   return triangles;
@@ -138,8 +138,8 @@ LatticeScene::LatticeScene(const EmbreeDevice& device, const DepthLattice& latti
   std::memcpy(rtcGetBufferData(buffer), vertices.data(), bytes);
   attach(device, scene_.get(), RTC_GEOMETRY_TYPE_GRID, buffer, vertices.size(), kCellsMask,
          RTC_BUFFER_TYPE_GRID, RTC_FORMAT_GRID, present_rectangles(lattice));
-  attach(device, scene_.get(), RTC_GEOMETRY_TYPE_TRIANGLE, buffer, vertices.size(), kBordersMask,
-         RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT3, border_triangles(lattice));
+  attach(device, scene_.get(), RTC_GEOMETRY_TYPE_TRIANGLE, buffer, vertices.size(), kHolesMask,
+         RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT3, hole_triangles(lattice));
   rtcReleaseBuffer(buffer);
   commit_scene(device, scene_.get());
 }

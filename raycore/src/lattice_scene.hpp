@@ -20,15 +20,17 @@ std::vector<Eigen::Vector3f> lattice_vertices(const DepthLattice& lattice);
 std::vector<RTCGrid> present_rectangles(const DepthLattice& lattice);
 
 /// The triangles between the camera's centre, which is vertex `width · height`, and the borders of
-/// the present cells: those of the image and those of holes. All look outwards, as the cells do.
-std::vector<Triangle> border_triangles(const DepthLattice& lattice);
+/// holes. All look outwards, as the cells do.
+std::vector<Triangle> hole_triangles(const DepthLattice& lattice);
 
-/// The bits of a ray's mask that meet a lattice's cells, and its borders.
+/// The bits of a ray's mask that meet a lattice's cells, and the borders of its holes.
 inline constexpr unsigned kCellsMask = 1;
-inline constexpr unsigned kBordersMask = 2;
+inline constexpr unsigned kHolesMask = 2;
 
-/// A closed surface around what a lattice saw through, as an Embree scene: the cells as grids, the
-/// borders as triangles, both on the same vertices, so that no ray slips through between them.
+/// A surface around what a lattice saw through, as an Embree scene: the cells as grids, the borders
+/// of holes as triangles, both on the same vertices, so that no ray slips through between them. At
+/// the image's outer borders it is open: those are four planes, and need no triangles, whose long
+/// boxes would make every ray through the volume twice as slow.
 class LatticeScene {
  public:
   LatticeScene(const EmbreeDevice& device, const DepthLattice& lattice,

@@ -84,12 +84,12 @@ struct SeenSpace::Impl {
       const Eigen::Vector3d apex = volume.apex.cast<double>() - from;
       const double step = kThinnest * std::max(reach, volume.reach);
       // Rays from its apex lie in a border's plane or pass it by; in float they might cross it.
-      const bool at_apex = apex.cwiseAbs().maxCoeff() <= 0.1 * step;
+      const bool from_apex = apex.cwiseAbs().maxCoeff() <= 0.1 * step;
       job.volumes.push_back({detail::ProbeView(volume.probe, -apex),
                              volume.scene.get(),
                              {float(apex.x()), float(apex.y()), float(apex.z())},
                              float(step),
-                             at_apex ? detail::kCellsMask : detail::kAllMasks,
+                             from_apex,
                              std::uint32_t(i)});
     }
     return job;

@@ -3,8 +3,9 @@
 // has met the unseen.
 //
 // Whether a volume has it is for the probe to say: in float, and therefore wrong where a surface is
-// near. So its word is only taken if Embree's next hit is a way out of the volume; from outside the
-// next one would be a way in.
+// near. So its word is only taken if what comes next agrees: Embree's next hit must be a way out of
+// the volume, from outside it would be a way in; and where there is none, the ray must still be
+// inside where it comes to the volume's outer border or to its own end.
 
 #include "seen_walk.hpp"
 
@@ -12,6 +13,7 @@
 #include <limits>
 
 #include "hit_packet.hpp"
+#include "lattice_scene.hpp"
 #include "tile_rays.hpp"
 #include "vantage/raycore/multiversion.hpp"
 
@@ -66,39 +68,52 @@ struct Walkers {
   return any != 0;
 }
 
-/// Asks where the lanes in `inside` meet the volume's surface next.
-[[gnu::always_inline]] inline void intersect(RTCScene scene, unsigned mask, QueryContext& context,
-                                             const float* t_near, const int* inside,
-                                             RTCRayHit16& packet) {
+/// Asks where the lanes in `inside` meet the volume's surface next, from t_near to t_stop.
+[[gnu::always_inline]] inline void intersect(const WalkVolume& volume, QueryContext& context,
+                                             const float* t_near, const float* t_stop,
+                                             const int* inside, RTCRayHit16& packet) {
+  const unsigned mask = volume.from_apex ? kCellsMask : kAllMasks;
 #pragma GCC unroll 1
   for (std::size_t i = 0; i < kPacketWidth; ++i) {
     packet.ray.tnear[i] = t_near[i];
+    packet.ray.tfar[i] = t_stop[i];
     packet.ray.mask[i] = mask;
-    packet.ray.tfar[i] = std::numeric_limits<float>::infinity();
     packet.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
     packet.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
   }
-  context.intersect16(inside, scene, &packet);
+  context.intersect16(inside, volume.scene, &packet);
 }
 
-/// Of the lanes in `asked`, those whose hit is a way out of the volume.
-[[gnu::always_inline]] inline void find_exits(const RTCRayHit16& packet, const int* asked,
-                                              int* exits) {
+/// Of the lanes in `asked`, those that get out of the volume at tfar: by a hit, or where the query
+/// ended and they still were inside.
+[[gnu::always_inline]] inline void find_exits(const WalkVolume& volume, const RTCRayHit16& packet,
+                                              const int* asked, int* exits) {
   const RTCRay16& ray = packet.ray;
   const RTCHit16& hit = packet.hit;
+  alignas(64) int to_the_end[kPacketWidth];
+  int any = 0;
 #pragma GCC unroll 1
   for (std::size_t i = 0; i < kPacketWidth; ++i) {
     const float outwards =
         hit.Ng_x[i] * ray.dir_x[i] + hit.Ng_y[i] * ray.dir_y[i] + hit.Ng_z[i] * ray.dir_z[i];
-    exits[i] = asked[i] & -int((hit.geomID[i] != RTC_INVALID_GEOMETRY_ID) & (outwards > 0));
+    const int is_hit = -int(hit.geomID[i] != RTC_INVALID_GEOMETRY_ID);
+    exits[i] = asked[i] & is_hit & -int(outwards > 0);
+    to_the_end[i] = asked[i] & ~is_hit & -int(ray.tfar[i] >= ray.tnear[i]);
+    any |= to_the_end[i];
   }
+  if (any == 0) return;
+  LanePixels pixels;
+  project_lanes(volume.probe, ray.dir_x, ray.dir_y, ray.dir_z, ray.tfar, pixels);
+  keep_in_front(*volume.probe.probe, pixels, to_the_end);
+#pragma GCC unroll 1
+  for (std::size_t i = 0; i < kPacketWidth; ++i) exits[i] |= to_the_end[i];
 }
 
 /// The walkers in `exits` go to their hits.
 [[gnu::always_inline]] inline void move_on(const WalkVolume& volume, const int* exits, Walkers& w) {
   RTCRay16& ray = w.packet.ray;
   RTCHit16& hit = w.packet.hit;
-  make_unit(hit.Ng_x, hit.Ng_y, hit.Ng_z);
+  make_unit(hit.Ng_x, hit.Ng_y, hit.Ng_z);  // NaN where there is no hit
   const float ax = volume.apex[0], ay = volume.apex[1], az = volume.apex[2];
   alignas(64) float length[kPacketWidth], cosine[kPacketWidth];
 #pragma GCC unroll 1
@@ -113,7 +128,8 @@ struct Walkers {
 #pragma GCC unroll 1
   for (std::size_t i = 0; i < kPacketWidth; ++i) {
     const float ratio = cosine[i] / (length[i] + std::numeric_limits<float>::min());
-    const float facing = ratio < 1 ? ratio : 1;
+    const float at_most_one = ratio < 1 ? ratio : 1;
+    const float facing = hit.geomID[i] != RTC_INVALID_GEOMETRY_ID ? at_most_one : 0;
     const bool moves = exits[i] != 0;
     const float t = ray.tfar[i], old_t = w.t[i], old_facing = w.facing[i];
     const std::uint32_t source = w.source[i];
@@ -127,47 +143,65 @@ struct Walkers {
 /// millionth, because of rays aimed at a shared vertex, as those of a camera that stands where a
 /// lattice's stood, some slip through. The hits of the others stay.
 void ask_again(const WalkVolume& volume, QueryContext& context, const float* t_near,
-               const int* missed, RTCRayHit16& packet, int* exits) {
+               const float* t_stop, const int* missed, RTCRayHit16& packet, int* exits) {
   RTCRayHit16 turned = packet;
   for (std::size_t i = 0; i < kPacketWidth; ++i) {
     const Eigen::Vector3f d(packet.ray.dir_x[i], packet.ray.dir_y[i], packet.ray.dir_z[i]);
     const Eigen::Vector3f e = d + d.cross(Eigen::Vector3f(3.6e-7f, 4.8e-7f, 8e-7f));
     turned.ray.dir_x[i] = e.x(), turned.ray.dir_y[i] = e.y(), turned.ray.dir_z[i] = e.z();
   }
-  intersect(volume.scene, volume.mask, context, t_near, missed, turned);
+  intersect(volume, context, t_near, t_stop, missed, turned);
   int found[kPacketWidth];
-  find_exits(turned, missed, found);
+  find_exits(volume, turned, missed, found);
   for (std::size_t i = 0; i < kPacketWidth; ++i) {
     if (found[i] == 0) continue;
     exits[i] = -1;
     packet.ray.tfar[i] = turned.ray.tfar[i];
+    packet.hit.geomID[i] = turned.hit.geomID[i];
     packet.hit.Ng_x[i] = turned.hit.Ng_x[i];
     packet.hit.Ng_y[i] = turned.hit.Ng_y[i];
     packet.hit.Ng_z[i] = turned.hit.Ng_z[i];
   }
 }
 
+/// Finds the walkers that are inside the volume just beyond t.
+[[gnu::always_inline]] inline bool find_inside(const WalkVolume& volume, const Walkers& w,
+                                               const float* t_near, int* inside) {
+  const RTCRay16& ray = w.packet.ray;
+  LanePixels pixels;
+  project_lanes(volume.probe, ray.dir_x, ray.dir_y, ray.dir_z, t_near, pixels);
+#pragma GCC unroll 1
+  for (std::size_t i = 0; i < kPacketWidth; ++i) inside[i] = w.walking[i];
+  const LatticeProbe& probe = *volume.probe.probe;
+  return keep_in_image(probe, pixels, inside) && keep_in_front(probe, pixels, inside);
+}
+
 /// Lets the walkers that are inside the volume go to its end.
-/// @returns whether any did; `exits` has which.
+/// @returns whether there are any; `exits` has which of them went.
 [[gnu::always_inline]] inline bool leave(const WalkVolume& volume, QueryContext& context,
                                          Walkers& w, int* exits) {
   const RTCRay16& ray = w.packet.ray;
-  alignas(64) float t_near[kPacketWidth];
+  alignas(64) float t_near[kPacketWidth], t_stop[kPacketWidth];
   alignas(64) int inside[kPacketWidth], missed[kPacketWidth];
 #pragma GCC unroll 1
-  for (std::size_t i = 0; i < kPacketWidth; ++i) t_near[i] = w.t[i] + volume.step;
-  if (!probe_lanes(volume.probe, ray.dir_x, ray.dir_y, ray.dir_z, t_near, w.walking, inside)) {
-    return false;
+  for (std::size_t i = 0; i < kPacketWidth; ++i) {
+    t_near[i] = w.t[i] + volume.step;
+    // A little beyond the end, because a floor that was measured may lie in the box's face.
+    t_stop[i] = w.t_end[i] + 2 * volume.step;
   }
-  intersect(volume.scene, volume.mask, context, t_near, inside, w.packet);
-  find_exits(w.packet, inside, exits);
+  if (!find_inside(volume, w, t_near, inside)) return false;
+  if (!volume.from_apex) {
+    stop_at_borders(volume.probe, ray.dir_x, ray.dir_y, ray.dir_z, t_stop);
+  }
+  intersect(volume, context, t_near, t_stop, inside, w.packet);
+  find_exits(volume, w.packet, inside, exits);
   int any_missed = 0;
 #pragma GCC unroll 1
   for (std::size_t i = 0; i < kPacketWidth; ++i) {
     missed[i] = inside[i] & ~exits[i];
     any_missed |= missed[i];
   }
-  if (any_missed != 0) ask_again(volume, context, t_near, missed, w.packet, exits);
+  if (any_missed != 0) ask_again(volume, context, t_near, t_stop, missed, w.packet, exits);
   move_on(volume, exits, w);
   return true;
 }

@@ -18,7 +18,7 @@ struct WalkVolume {
   RTCScene scene;
   float apex[3];        ///< the lattice's camera, relative to the rays' origin
   float step;           ///< what is thinner than this may be taken for seen
-  unsigned mask;        ///< of its surface's parts that the rays can cross
+  bool from_apex;       ///< rays start at the lattice's camera: they cross no border
   std::uint32_t index;  ///< of the lattice
 };
 
