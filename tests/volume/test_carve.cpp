@@ -145,6 +145,26 @@ TEST_CASE("carving is asking, with lattices of what cameras measured") {
   expect_agreement(tally);
 }
 
+TEST_CASE("carving is asking, with lattices far wider than any image") {
+  Tally tally;
+  for (std::uint32_t seed = 0; seed < test::scene_count(6); ++seed) {
+    CAPTURE(seed);
+    Random random(seed);
+    const Box area = test::random_workcell_area();
+    std::vector<DepthLattice> lattices{random_lattice(random, area)};
+    for (std::vector<float>* axis : {&lattices[0].columns, &lattices[0].rows}) {
+      axis->front() = -30000;
+      axis->back() = 40000;
+    }
+    const GridGeometry geometry = GridGeometry::covering(area, 0.008);
+    tally_up(*carve(lattices, geometry, {}), lattices, *classify({}, geometry), tally);
+  }
+  CHECK(tally.differences == 0);
+  CHECK(tally.close_calls * 10000 < tally.voxels);
+  CHECK(tally.free * 20 > tally.voxels);
+  CHECK(tally.shadow * 20 > tally.voxels);
+}
+
 TEST_CASE("carving a far away work area loses no precision") {
   Random random(5);
   Tally tally;

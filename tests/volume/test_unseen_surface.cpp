@@ -12,7 +12,9 @@
 #include "support/expect_error.hpp"
 #include "support/scene_count.hpp"
 #include "vantage/volume/carve.hpp"
+#include "vantage/volume/classify.hpp"
 #include "vantage/volume/visibility.hpp"
+#include "volume/make_grid.hpp"
 #include "volume/mesh_measures.hpp"
 
 namespace vantage {
@@ -85,10 +87,26 @@ double carved_m3(std::span<const DepthLattice> lattices, const GridGeometry& geo
   return carve(lattices, geometry, {})->volume_m3(VoxelState::shadow);
 }
 
+/// The voxels whose centres are inside the mesh are those that carving leaves.
+void expect_same_sides(const TriangleMesh& mesh, std::span<const DepthLattice> lattices,
+                       const GridGeometry& geometry) {
+  const auto solid = std::make_shared<const TriangleMesh>(mesh);
+  const auto inside = classify({{{"unseen", solid, {}}}, {}, {}}, geometry);
+  CHECK(inside->report().warnings.empty());
+  const auto carved = carve(lattices, geometry, {});
+  std::size_t differences = 0;
+  test::for_each_voxel(geometry, [&](const Eigen::Vector3i& voxel) {
+    differences +=
+        (inside->at(voxel) == VoxelState::occupied) != (carved->at(voxel) == VoxelState::shadow);
+  });
+  CHECK(differences == 0);
+}
+
 void expect_surface(const TriangleMesh& mesh, std::span<const DepthLattice> lattices,
                     const GridGeometry& geometry, double expected_m3, double tolerance) {
   CHECK(closed(mesh));
   CHECK(mesh.dropped_degenerate() == 0);
+  expect_same_sides(mesh, lattices, geometry);
   CHECK(std::abs(test::volume_m3(mesh) / expected_m3 - 1) < tolerance);
   const double voxel = geometry.voxel_size_m();
   const Box box = box_of(geometry);

@@ -30,7 +30,10 @@ VANTAGE_API std::shared_ptr<const StateGrid> carve(std::span<const DepthLattice>
 
 /// The surface of the grid's box less what the lattices saw through, as a closed mesh that looks
 /// outwards, to export and to view; world frame. It is where rays first meet what is unseen
-/// (`SeenSpace`) to within a voxel's diagonal; what is thinner than a voxel may be missing.
+/// (`SeenSpace`) to within a voxel's diagonal, and where it is smooth to a small part of a voxel;
+/// edges are rounded by up to half a voxel, and what is thinner than a voxel may be missing.
+/// A voxel's centre is inside the surface exactly if `carve` without known objects has it as
+/// shadow.
 ///
 /// Runs in the caller's task arena; the result is the same at any number of threads.
 /// @throws Error bad_input as `DepthLattice::check` does.
