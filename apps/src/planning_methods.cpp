@@ -19,24 +19,31 @@ void refuse_twice(const std::string& where, const std::vector<std::string>& name
   }
 }
 
+/// The power of the depth that a name ends in.
+std::optional<double> power_in(const std::string& name, std::size_t begin) {
+  double power = 0;
+  const char *const first = name.data() + begin, *const last = name.data() + name.size();
+  const auto [end, error] = std::from_chars(first, last, power);
+  const bool valid = error == std::errc() && end == last && power >= 0 && power <= 16;
+  return valid ? std::optional(power) : std::nullopt;
+}
+
 }  // namespace
 
 NamedMethod named_method(const std::string& name) {
-  constexpr std::string_view kShadow = "shadow", kPower = "shadowD";
-  if (name == kShadow) return {"shadowD6", {.name = "shadow", .depth_power = 6}};
-  if (name.starts_with(kPower)) {
-    double power = 0;
-    const char *const first = name.data() + kPower.size(), *const last = name.data() + name.size();
-    const auto [end, error] = std::from_chars(first, last, power);
-    if (error == std::errc() && end == last && power >= 0 && power <= 16) {
-      return {fmt::format("shadowD{}", power), {.name = "shadow", .depth_power = power}};
-    }
-  } else if (std::ranges::find(method_names(), name) != method_names().end()) {
+  if (name == "shadow") return {"shadowD6", {.name = "shadow", .depth_power = 6}};
+  if (std::ranges::find(method_names(), name) != method_names().end()) {
     return {name, {.name = name}};
   }
+  for (const std::string method : {"shadow", "mesh"}) {
+    if (!name.starts_with(method + "D")) continue;
+    const auto power = power_in(name, method.size() + 1);
+    if (power)
+      return {fmt::format("{}D{}", method, *power), {.name = method, .depth_power = *power}};
+  }
   throw bad_input("--methods",
-                  fmt::format("found '{}'; expected one of: {}; shadowD and a number from 0 to 16 "
-                              "is the shadow method with that power of the depth",
+                  fmt::format("found '{}'; expected one of: {}; shadowD or meshD and a number from "
+                              "0 to 16 is that method with that power of the depth",
                               name, fmt::join(method_names(), ", ")));
 }
 

@@ -59,12 +59,16 @@ TEST_CASE("methods by their names, with the power of the depth in it") {
   CHECK(d3.options.name == "shadow");
   CHECK(d3.options.depth_power == 3);
   CHECK(named_method("shadowD2.50").name == "shadowD2.5");
-  for (const char* name : {"", "shadowD", "shadowDx", "shadowD17", "shadowD-1", "Voxel"}) {
+  CHECK(named_method("mesh").name == "mesh");
+  CHECK(named_method("meshD2").options.name == "mesh");
+  CHECK(named_method("meshD2").options.depth_power == 2);
+  for (const char* name :
+       {"", "shadowD", "shadowDx", "shadowD17", "shadowD-1", "meshD", "lightD3", "Voxel"}) {
     CAPTURE(name);
     CHECK_THROWS_WITH_AS(named_method(name),
                          (std::string("--methods: found '") + name +
-                          "'; expected one of: voxel, shadow, light; shadowD and a number from 0 "
-                          "to 16 is the shadow method with that power of the depth")
+                          "'; expected one of: voxel, shadow, mesh, light; shadowD or meshD and a "
+                          "number from 0 to 16 is that method with that power of the depth")
                              .c_str(),
                          Error);
   }
