@@ -21,7 +21,7 @@ packages=(
 for option in "$@"; do
   case $option in
     --test) packages+=(python3-openvdb python3-numpy python3-pil) ;;
-    --bench) packages+=(libbenchmark-dev) ;;
+    --bench) packages+=(libbenchmark-dev libcgal-dev) ;;
     --dev) packages+=(clang-format clang-tidy shellcheck) ;;
     *) echo "usage: apps/setup.sh [--test] [--bench] [--dev]" >&2; exit 2 ;;
   esac
