@@ -31,6 +31,14 @@ void add_view_count_options(CLI::App& verb, ViewCount& views) {
 void add_mesh_options(CLI::App& verb, MeshOptions& mesh) {
   static const std::map<std::string, DepthHoles> holes{{"fill", DepthHoles::fill},
                                                        {"unknown", DepthHoles::unknown}};
+  static const std::map<std::string, MeshWeight> weights{{"depth", MeshWeight::depth},
+                                                         {"volume", MeshWeight::volume}};
+  verb.add_option("--mesh-weight", mesh.weight,
+                  "Of --method mesh: what unseen pixels count; depth: their depth to the "
+                  "--depth-power; volume: the volume behind them, by which views from different "
+                  "distances compare")
+      ->transform(CLI::CheckedTransformer(weights))
+      ->default_str("depth");
   verb.add_option("--mesh-step", mesh.visibility.step_px,
                   "Of --method mesh: a vertex every so many pixels of the depth images")
       ->check(CLI::Range(1, 64))

@@ -68,7 +68,8 @@ namespace {
 Json mesh_json(const MethodOptions& method) {
   if (method.name != "mesh") return nullptr;
   const VisibilityOptions& visibility = method.mesh.visibility;
-  return {{"step_px", visibility.step_px},
+  return {{"weight", method.mesh.weight == MeshWeight::volume ? "volume" : "depth"},
+          {"step_px", visibility.step_px},
           {"holes", visibility.holes == DepthHoles::fill ? "fill" : "unknown"},
           {"fill_reach_px", visibility.fill_reach_px},
           {"offset_sigmas", visibility.offset_sigmas},

@@ -10,6 +10,7 @@
 #include "mesh_pixels.hpp"
 #include "small_image.hpp"
 #include "tile_bounds.hpp"
+#include "unseen_volume.hpp"
 #include "vantage/raycore/box_projector.hpp"
 #include "vantage/raycore/error.hpp"
 #include "vantage/raycore/seen_space.hpp"
@@ -55,7 +56,8 @@ TileRange tiles_of(const PinholeCamera& view, const Box& box) {
 struct MeshScorer::Impl {
   SeenSpace seen;
   std::shared_ptr<const Scene> known;
-  detail::DepthWeight weight;
+  detail::DepthWeight weight;  ///< of volumes, that of their far end
+  bool by_volume;
   int image_width;
 
   /// @throws Error bad_input for a view with another depth range: its weights would be others.
@@ -77,6 +79,10 @@ struct MeshScorer::Impl {
 
   MeshPixels pixels(const PinholeCamera& view) const {
     return {view.intrinsics(), view.range(), weight.power()};
+  }
+
+  Score sum(const PinholeCamera& view, const MeshPixels& rule, const MeshTiles& tiles) const {
+    return by_volume ? detail::unseen_volume(view, seen.box(), tiles) : rule.sum(tiles);
   }
 
   /// Traces the tiles that may show the work area, batch by batch; `visit` gets each batch and how
@@ -105,7 +111,7 @@ struct MeshScorer::Impl {
     bool stopped = false;
     if (left >= needed) {
       trace(view, range, [&](const MeshTiles& batch, std::size_t tiles_left) {
-        sum += rule.sum(batch);
+        sum += this->sum(view, rule, batch);
         left = tiles_left * most;
         stopped = left > 0 && stop.stop_requested();
         return !stopped && sum + left >= needed;
@@ -117,9 +123,10 @@ struct MeshScorer::Impl {
 };
 
 MeshScorer::MeshScorer(const SeenWorld& world, const DepthRange& range, double depth_power,
-                       int image_width)
+                       int image_width, MeshWeight weight)
     : impl_(new Impl{SeenSpace(world.lattices, world.work_area), known_scene(world.known),
-                     detail::DepthWeight(depth_power, range), image_width}) {
+                     detail::DepthWeight(weight == MeshWeight::volume ? 3 : depth_power, range),
+                     weight == MeshWeight::volume, image_width}) {
   MeshOptions{.image_width = image_width}.check();
 }
 
@@ -153,7 +160,7 @@ std::vector<ScoreTerm> MeshScorer::terms(const PinholeCamera& given) const {
   Score sum = 0;
   double pixels = 0, depths_m = 0, facing = 0;
   impl_->trace(view, tiles_of(view, impl_->seen.box()), [&](const MeshTiles& batch, std::size_t) {
-    sum += rule.sum(batch);
+    sum += impl_->sum(view, rule, batch);
     for (std::size_t i = 0; i < batch.tiles.size(); ++i) {
       for (unsigned shown = rule.shown(batch, i, 1); shown != 0; shown &= shown - 1) {
         const int pixel = std::countr_zero(shown);
@@ -184,7 +191,7 @@ ShadowSight MeshScorer::look(const PinholeCamera& view) const {
   ShadowBounds bounds{k.width, -1, k.height, -1};
   Score sum = 0;
   impl_->trace(view, tiles_of(view, impl_->seen.box()), [&](const MeshTiles& batch, std::size_t) {
-    sum += rule.sum(batch);
+    sum += impl_->sum(view, rule, batch);
     for (std::size_t i = 0; i < batch.tiles.size(); ++i) {
       const unsigned shown = rule.shown(batch, i, kShadowFacing);
       if (shown != 0) bounds = detail::joined(bounds, detail::bounds_of(batch.tiles[i], shown));

@@ -22,8 +22,8 @@ MeshTools mesh_tools(const WorldModel& world, const Box& work_area, const PlanRe
   const double power = request.method.depth_power;
   const SeenWorld seen = seen_world(world, work_area, options);
   MeshTools tools;
-  tools.scorer =
-      std::make_shared<const MeshScorer>(seen, request.range, power, options.image_width);
+  tools.scorer = std::make_shared<const MeshScorer>(seen, request.range, power, options.image_width,
+                                                    options.weight);
   const bool shortlist = views > std::size_t(options.exact_views);
   const double voxel_size_m =
       shortlist ? options.shortlist_voxel_m : work_area.size().maxCoeff() / kCoarse;

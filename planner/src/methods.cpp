@@ -40,7 +40,7 @@ std::unique_ptr<const ViewScorer> make_view_scorer(const MethodOptions& options,
   if (options.name == "mesh") {
     return std::make_unique<MeshScorer>(
         seen_world(world, scene.grid().geometry().box(), options.mesh), range, options.depth_power,
-        options.mesh.image_width);
+        options.mesh.image_width, options.mesh.weight);
   }
   if (options.name == "light") return std::make_unique<LightScorer>(scene, world);
   return std::make_unique<VoxelScorer>(scene);

@@ -14,11 +14,19 @@
 
 namespace vantage {
 
+/// What a pixel counts that meets what no camera saw through at depth D.
+enum class MeshWeight {
+  depth,   ///< D^power (thesis 7.4.5): surfaces, the far ones more
+  volume,  ///< the volume behind, up to the work area's end or a known object; the power is not
+           ///< used
+};
+
 /// How the mesh method looks at the world.
 struct MeshOptions {
   VisibilityOptions visibility = {};
   double enlarge =
       1.2;  ///< known objects, about their middle, for what is imprecise (thesis 7.4.4)
+  MeshWeight weight = MeshWeight::depth;
   int image_width = 160;  ///< of the images that views are scored by; their height follows
 
   /// Up to so many views, servo iterations included, all are scored by rays. Of more, the shadow
@@ -51,6 +59,10 @@ VANTAGE_API SeenWorld seen_world(const WorldModel& world, const Box& work_area,
 /// "shadowness": the cosine at which the camera that made it looked at it, and 1 on known objects,
 /// which hide what is behind them.
 ///
+/// With `MeshWeight::volume` it is (1 - v) · (E³ - D³) instead, E being where the ray leaves the
+/// work area, meets a known object or is at the range's end. That is the volume in the pixel that
+/// may be revealed: views from different distances compare by it.
+///
 /// Views are scored by images of `MeshOptions::image_width`, with the view's own field of view.
 /// Every pixel's (1 - v) (D / far)^power is rounded to a multiple of 2^-35, so that sums are exact.
 /// Also the servo's view: a pixel is shadow to it if v is below a half.
@@ -59,7 +71,7 @@ class VANTAGE_API MeshScorer final : public ViewScorer, public ShadowView {
   /// @param range of the views that are to be scored: `unit()` depends on it.
   /// @throws Error bad_input unless 0 <= depth_power <= 16 and 16 <= image_width <= 16384.
   MeshScorer(const SeenWorld& world, const DepthRange& range, double depth_power,
-             int image_width = MeshOptions().image_width);
+             int image_width = MeshOptions().image_width, MeshWeight weight = MeshWeight::depth);
   ~MeshScorer() override;
 
   std::string_view name() const noexcept override { return "mesh"; }
