@@ -173,7 +173,7 @@ TEST_CASE("rays do not stop at the border between two halves of an image") {
       surfaces += a[i].source != UnseenHits::kNoSource;
     }
   }
-  CHECK(surfaces > enough(2000));
+  CHECK(surfaces >= enough(2000));
 }
 
 TEST_CASE("what lies before a hit is seen, what lies behind it is not") {
@@ -201,8 +201,8 @@ TEST_CASE("what lies before a hit is seen, what lies behind it is not") {
       wrong += is_seen(scene, pixel.at(t + 3e-5));
     }
   }
-  CHECK(before > enough(50000));
-  CHECK(behind > enough(20000));
+  CHECK(before >= enough(50000));
+  CHECK(behind >= enough(20000));
   // Layers of 10 µm and rays that graze a surface.
   CHECK(wrong <= (before + behind) / 2000);
 }

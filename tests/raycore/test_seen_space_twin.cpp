@@ -87,9 +87,9 @@ TEST_CASE("the unseen begins where the union of the lattices' tetrahedra ends") 
     CAPTURE(int(place));
     const Tally tally = compare_views(place, 100 * std::uint32_t(place));
     CHECK(tally.close_calls <= tally.rays / 10000);
-    CHECK(tally.surfaces > enough(500));
-    CHECK(tally.faces > enough(3000));
-    CHECK(tally.misses > enough(2000));
+    CHECK(tally.surfaces >= enough(500));
+    CHECK(tally.faces >= enough(3000));
+    CHECK(tally.misses >= enough(2000));
   }
 }
 
@@ -97,5 +97,5 @@ TEST_CASE("the same from where a lattice's camera stands, through its very pixel
   // Here rays lie in the planes of borders and meet the surface in its edges and vertices.
   const Tally tally = compare_views(ViewerPlace::lattice_camera, 1000);
   CHECK(tally.close_calls <= tally.rays / 50);
-  CHECK(tally.surfaces > enough(10000));
+  CHECK(tally.surfaces >= enough(10000));
 }
