@@ -30,6 +30,10 @@ AxisLookup::AxisLookup(const std::vector<float>& lines)
     inverse_width[std::size_t(i)] = 1 / (lines[std::size_t(i) + 1] - lines[std::size_t(i)]);
   starts.back() = std::numeric_limits<float>::infinity();
 
+  step = lines[1] - lines[0];
+  even = true;
+  for (int i = 0; i < cells; ++i) even = even && lines[std::size_t(i)] == first + float(i) * step;
+
   // Line i is found by the same arithmetic as every coordinate, so that no coordinate behind it
   // comes into a bucket before it.
   cell_of_bucket.assign(std::size_t(buckets), 0);
@@ -51,8 +55,13 @@ LatticeProbe::LatticeProbe(const DepthLattice& lattice)
     : columns(lattice.columns),
       rows(lattice.rows),
       width(int(lattice.width())),
-      inverse_depth(lattice.depth.size()) {
-  for (std::size_t i = 0; i < inverse_depth.size(); ++i) inverse_depth[i] = 1 / lattice.depth[i];
+      nearness(lattice.depth.size()) {
+  constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  float smallest = kInfinity;
+  for (const float depth : lattice.depth) smallest = depth < smallest ? depth : smallest;
+  nearest = smallest < kInfinity ? smallest : 1;
+  height = kHighest * nearest;
+  for (std::size_t i = 0; i < nearness.size(); ++i) nearness[i] = height / lattice.depth[i];
   const Intrinsics& k = lattice.camera.intrinsics();
   Eigen::Matrix3d K;
   K << k.fx, 0, k.cx, 0, k.fy, k.cy, 0, 0, 1;
@@ -62,18 +71,16 @@ LatticeProbe::LatticeProbe(const DepthLattice& lattice)
 ProbeView::ProbeView(const LatticeProbe& lattice_probe, const Eigen::Vector3d& relative_origin)
     : probe(&lattice_probe) {
   const Eigen::Matrix3d& M = lattice_probe.pixels_from_world;
+  const Eigen::Vector3d o = M * relative_origin;
   for (int row = 0; row < 3; ++row) {
-    origin[row] = float(relative_origin[row]);
+    origin[row] = float(o[row]);
     for (int col = 0; col < 3; ++col) m[3 * row + col] = float(M(row, col));
   }
   const AxisLookup &columns = lattice_probe.columns, &rows = lattice_probe.rows;
-  const Eigen::RowVector3d planes[4] = {
-      M.row(0) - double(columns.first) * M.row(2), double(columns.last) * M.row(2) - M.row(0),
-      M.row(1) - double(rows.first) * M.row(2), double(rows.last) * M.row(2) - M.row(1)};
-  for (int i = 0; i < 4; ++i) {
-    for (int col = 0; col < 3; ++col) borders[i][col] = float(planes[i][col]);
-    borders[i][3] = float(planes[i].dot(relative_origin));
-  }
+  borders[0] = float(o.x() - double(columns.first) * o.z());
+  borders[1] = float(double(columns.last) * o.z() - o.x());
+  borders[2] = float(o.y() - double(rows.first) * o.z());
+  borders[3] = float(double(rows.last) * o.z() - o.y());
 }
 
 }  // namespace vantage::detail

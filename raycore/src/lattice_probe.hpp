@@ -16,6 +16,8 @@ struct AxisLookup {
   float buckets_per_pixel;
   int last_bucket;
   int steps;
+  bool even;   ///< whether all cells, save for the last one, are of one width: no table is needed
+  float step;  ///< that width
   std::vector<int> cell_of_bucket;
   std::vector<float> starts;         ///< of each cell; behind the last one stands infinity
   std::vector<float> inverse_width;  ///< of each cell
@@ -23,12 +25,21 @@ struct AxisLookup {
   explicit AxisLookup(const std::vector<float>& lines);
 };
 
+/// About as high as images are wide: so Embree's builder makes boxes of a good shape.
+inline constexpr float kHighest = 1000;
+
 /// `DepthLattice::sees` for sixteen points at once, in float: it says whether it is worth asking
 /// Embree where a ray leaves a lattice's volume.
+///
+/// It works where the lattice's scene does, in the lattice's own projective space: a point is at
+/// (u, v, w), its pixel and its nearness, which is kHighest at the lattice's smallest depth and
+/// falls as 1 / z. Lines stay lines there and planes planes, and the volume is a field of heights.
 struct LatticeProbe {
   AxisLookup columns, rows;
   int width;                          ///< vertices in a row
-  std::vector<float> inverse_depth;   ///< NaN where it is unknown
+  float nearest;                      ///< smallest depth; 1 if all are unknown
+  float height;                       ///< w · z of any point
+  std::vector<float> nearness;        ///< of the vertices; NaN where it is unknown
   Eigen::Matrix3d pixels_from_world;  ///< gives (u z, v z, z) of a point relative to the camera
 
   explicit LatticeProbe(const DepthLattice& lattice);
@@ -37,16 +48,21 @@ struct LatticeProbe {
 /// A probe for points relative to one ray origin.
 struct ProbeView {
   const LatticeProbe* probe;
-  float m[9];           ///< pixels_from_world, row by row
-  float origin[3];      ///< of the rays, relative to the lattice's camera
-  float borders[4][4];  ///< planes of the image's borders: n · p + w > 0 inside, p from the origin
+  float m[9];        ///< pixels_from_world, row by row
+  float origin[3];   ///< of the rays, as (u z, v z, z)
+  float borders[4];  ///< how far inside of the left, right, upper and lower one it is, times z
 
   ProbeView(const LatticeProbe& lattice_probe, const Eigen::Vector3d& relative_origin);
 };
 
-/// Where sixteen points appear in a lattice's image.
+/// Sixteen directions, as they change (u z, v z, z).
+struct LaneDirections {
+  alignas(64) float u[kPacketWidth], v[kPacketWidth], z[kPacketWidth];
+};
+
+/// Sixteen points in a lattice's projective space.
 struct LanePixels {
-  alignas(64) float u[kPacketWidth], v[kPacketWidth], inverse_z[kPacketWidth];
+  alignas(64) float u[kPacketWidth], v[kPacketWidth], w[kPacketWidth];
 };
 
 // "GCC unroll 1" before the loops over a packet's lanes: unrolled before the vectoriser comes to
@@ -54,8 +70,24 @@ struct LanePixels {
 
 /// The cells of sixteen coordinates, and how far across their cells they are. Beyond the first or
 /// last line the nearest cell counts.
+[[gnu::always_inline]] inline void find_even_cells(const AxisLookup& axis, const float* x,
+                                                   int* cell, float* fraction) {
+  const int last_cell = int(axis.inverse_width.size()) - 1;
+  const float first = axis.first, last = axis.last, step = axis.step;
+  const float rate = axis.inverse_width.front(), last_rate = axis.inverse_width.back();
+#pragma GCC unroll 1
+  for (std::size_t i = 0; i < kPacketWidth; ++i) {
+    const float below = x[i] < last ? x[i] : last;  // `last` for NaN, too
+    const int index = int(((below > first ? below : first) - first) * rate);
+    const int at = index < last_cell ? index : last_cell;
+    cell[i] = at;
+    fraction[i] = (x[i] - (first + float(at) * step)) * (at == last_cell ? last_rate : rate);
+  }
+}
+
 [[gnu::always_inline]] inline void find_cells(const AxisLookup& axis, const float* x, int* cell,
                                               float* fraction) {
+  if (axis.even) return find_even_cells(axis, x, cell, fraction);
   const int* cell_of_bucket = axis.cell_of_bucket.data();
   const float *starts = axis.starts.data(), *inverse_width = axis.inverse_width.data();
   const float first = axis.first, last = axis.last, rate = axis.buckets_per_pixel;
@@ -76,18 +108,29 @@ struct LanePixels {
   }
 }
 
-[[gnu::always_inline]] inline void project_lanes(const ProbeView& view, const float* dir_x,
-                                                 const float* dir_y, const float* dir_z,
-                                                 const float* t, LanePixels& pixels) {
+[[gnu::always_inline]] inline void turn_lanes(const ProbeView& view, const float* dir_x,
+                                              const float* dir_y, const float* dir_z,
+                                              LaneDirections& d) {
   const float* m = view.m;
-  const float x0 = view.origin[0], y0 = view.origin[1], z0 = view.origin[2];
 #pragma GCC unroll 1
   for (std::size_t i = 0; i < kPacketWidth; ++i) {
-    const float x = x0 + t[i] * dir_x[i], y = y0 + t[i] * dir_y[i], z = z0 + t[i] * dir_z[i];
-    const float inverse_z = 1 / (m[6] * x + m[7] * y + m[8] * z);
-    pixels.u[i] = (m[0] * x + m[1] * y + m[2] * z) * inverse_z;
-    pixels.v[i] = (m[3] * x + m[4] * y + m[5] * z) * inverse_z;
-    pixels.inverse_z[i] = inverse_z;
+    const float x = dir_x[i], y = dir_y[i], z = dir_z[i];
+    d.u[i] = m[0] * x + m[1] * y + m[2] * z;
+    d.v[i] = m[3] * x + m[4] * y + m[5] * z;
+    d.z[i] = m[6] * x + m[7] * y + m[8] * z;
+  }
+}
+
+[[gnu::always_inline]] inline void project_lanes(const ProbeView& view, const LaneDirections& d,
+                                                 const float* t, LanePixels& pixels) {
+  const float u0 = view.origin[0], v0 = view.origin[1], z0 = view.origin[2];
+  const float height = view.probe->height;
+#pragma GCC unroll 1
+  for (std::size_t i = 0; i < kPacketWidth; ++i) {
+    const float inverse_z = 1 / (z0 + t[i] * d.z[i]);
+    pixels.u[i] = (u0 + t[i] * d.u[i]) * inverse_z;
+    pixels.v[i] = (v0 + t[i] * d.v[i]) * inverse_z;
+    pixels.w[i] = height * inverse_z;
   }
 }
 
@@ -101,8 +144,7 @@ struct LanePixels {
 #pragma GCC unroll 1
   for (std::size_t i = 0; i < kPacketWidth; ++i) {
     const float u = pixels.u[i], v = pixels.v[i];
-    lanes[i] &=
-        -int((pixels.inverse_z[i] > 0) & (u >= left) & (u <= right) & (v >= top) & (v <= bottom));
+    lanes[i] &= -int((pixels.w[i] > 0) & (u >= left) & (u <= right) & (v >= top) & (v <= bottom));
     any |= lanes[i];
   }
   return any != 0;
@@ -117,38 +159,43 @@ struct LanePixels {
   alignas(64) float across[kPacketWidth], down[kPacketWidth];
   find_cells(probe.columns, pixels.u, column, across);
   find_cells(probe.rows, pixels.v, row, down);
-  const float* inverse_depth = probe.inverse_depth.data();
+  const float* nearness = probe.nearness.data();
   const int width = probe.width;
   int any = 0;
 #pragma GCC unroll 1
   for (std::size_t i = 0; i < kPacketWidth; ++i) {
     const int at = row[i] * width + column[i];
-    const float a = inverse_depth[at], b = inverse_depth[at + 1];
-    const float c = inverse_depth[at + width + 1], d = inverse_depth[at + width];
+    const float a = nearness[at], b = nearness[at + 1];
+    const float c = nearness[at + width + 1], d = nearness[at + width];
     const float s = across[i], r = down[i];
     const bool upper = s + r <= 1;  // the triangle a b d; the other one is c d b
     const float corner = upper ? a : c;
     const float to_b = upper ? s : 1 - r, to_d = upper ? r : 1 - s;
     const float surface = corner + to_b * (b - corner) + to_d * (d - corner);
     // A cell with an unknown corner is not there, whichever half the point is in.
-    lanes[i] &= -int((pixels.inverse_z[i] > surface) & (a + c == a + c));
+    lanes[i] &= -int((pixels.w[i] > surface) & (a + c == a + c));
     any |= lanes[i];
   }
   return any != 0;
 }
 
 /// Shortens t_stop to where rays that are within the outer borders cross one of them.
-[[gnu::always_inline]] inline void stop_at_borders(const ProbeView& view, const float* dir_x,
-                                                   const float* dir_y, const float* dir_z,
+[[gnu::always_inline]] inline void stop_at_borders(const ProbeView& view, const LaneDirections& d,
                                                    float* t_stop) {
-  for (const float(&plane)[4] : view.borders) {
-    const float nx = plane[0], ny = plane[1], nz = plane[2], w = plane[3];
+  const LatticeProbe& probe = *view.probe;
+  const float left = probe.columns.first, right = probe.columns.last;
+  const float top = probe.rows.first, bottom = probe.rows.last;
+  const float* inside = view.borders;
 #pragma GCC unroll 1
-    for (std::size_t i = 0; i < kPacketWidth; ++i) {
-      const float slope = nx * dir_x[i] + ny * dir_y[i] + nz * dir_z[i];
-      const float t = -w / slope, old = t_stop[i];
-      t_stop[i] = (slope < 0) & (t < old) ? t : old;
+  for (std::size_t i = 0; i < kPacketWidth; ++i) {
+    const float slopes[4] = {d.u[i] - left * d.z[i], right * d.z[i] - d.u[i], d.v[i] - top * d.z[i],
+                             bottom * d.z[i] - d.v[i]};
+    float stop = t_stop[i];
+    for (int border = 0; border < 4; ++border) {
+      const float t = -inside[border] / slopes[border];
+      stop = (slopes[border] < 0) & (t < stop) ? t : stop;
     }
+    t_stop[i] = stop;
   }
 }
 

@@ -3,9 +3,13 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <utility>
 
 namespace vantage::detail {
 namespace {
+
+/// Where walls end: nothing that is nearer to the camera is asked for.
+constexpr float kWallTop = 1e6f * kHighest;
 
 /// Cells of a lattice, each 1 or 0.
 class CellMask {
@@ -55,6 +59,33 @@ RTCGrid take_rectangle(CellMask& cells, int i, int j) {
           std::uint16_t(bottom - j + 1)};
 }
 
+/// Upright walls on edges of the lattice, two triangles each.
+class Walls {
+ public:
+  std::vector<Triangle> triangles;
+
+  explicit Walls(std::vector<Eigen::Vector3f>& vertices)
+      : vertices_(vertices), tops_(vertices.size()) {}
+
+  void add(std::uint32_t from, std::uint32_t to) {
+    const std::uint32_t above_from = top_of(from), above_to = top_of(to);
+    triangles.push_back({from, to, above_to});
+    triangles.push_back({from, above_to, above_from});
+  }
+
+ private:
+  std::uint32_t top_of(std::uint32_t vertex) {
+    if (tops_[vertex] == 0) {
+      tops_[vertex] = std::uint32_t(vertices_.size());
+      vertices_.push_back({vertices_[vertex].x(), vertices_[vertex].y(), kWallTop});
+    }
+    return tops_[vertex];
+  }
+
+  std::vector<Eigen::Vector3f>& vertices_;
+  std::vector<std::uint32_t> tops_;  ///< 0: none yet
+};
+
 template <class Item>
 void fill(const EmbreeDevice& device, RTCGeometry geometry, RTCBufferType type, RTCFormat format,
           const std::vector<Item>& items) {
@@ -82,18 +113,13 @@ void attach(const EmbreeDevice& device, RTCScene scene, RTCGeometryType type, RT
 
 }  // namespace
 
-std::vector<Eigen::Vector3f> lattice_vertices(const DepthLattice& lattice) {
-  const Intrinsics& k = lattice.camera.intrinsics();
-  const Eigen::Matrix3d& R = lattice.camera.T_world_cam().rotation();
-  const Eigen::Vector3d& centre = lattice.camera.centre();
-  std::vector<Eigen::Vector3f> vertices(lattice.depth.size() + 1, centre.cast<float>());
+std::vector<Eigen::Vector3f> lattice_vertices(const DepthLattice& lattice,
+                                              const LatticeProbe& probe) {
+  std::vector<Eigen::Vector3f> vertices(lattice.depth.size());
   for (std::size_t j = 0, at = 0; j < lattice.height(); ++j) {
-    const Eigen::Vector3d row = R.col(2) + R.col(1) * ((double(lattice.rows[j]) - k.cy) / k.fy);
     for (std::size_t i = 0; i < lattice.width(); ++i, ++at) {
-      const double depth = double(lattice.depth[at]);
-      if (std::isnan(depth)) continue;
-      const double x = (double(lattice.columns[i]) - k.cx) / k.fx;
-      vertices[at] = (centre + depth * (row + R.col(0) * x)).cast<float>();
+      const float w = probe.nearness[at];
+      vertices[at] = {lattice.columns[i], lattice.rows[j], std::isnan(w) ? 0 : w};
     }
   }
   return vertices;
@@ -110,27 +136,31 @@ std::vector<RTCGrid> present_rectangles(const DepthLattice& lattice) {
   return rectangles;
 }
 
-std::vector<Triangle> hole_triangles(const DepthLattice& lattice) {
+std::vector<Triangle> hole_walls(const DepthLattice& lattice,
+                                 std::vector<Eigen::Vector3f>& vertices) {
   const CellMask cells(lattice);
-  const auto width = std::uint32_t(lattice.width()), apex = std::uint32_t(lattice.depth.size());
-  std::vector<Triangle> triangles;
+  Walls walls(vertices);
   for (int j = 0; j < cells.height(); ++j) {
     for (int i = 0; i < cells.width(); ++i) {
       if (!cells.has(i, j)) continue;
+      const auto width = std::uint32_t(lattice.width());
       const std::uint32_t a = std::uint32_t(j) * width + std::uint32_t(i), b = a + 1;
       const std::uint32_t c = b + width, d = a + width;  // a, b, c, d: clockwise in the image
-      if (cells.is_hole(i, j - 1)) triangles.push_back({b, a, apex});
-      if (cells.is_hole(i + 1, j)) triangles.push_back({c, b, apex});
-      if (cells.is_hole(i, j + 1)) triangles.push_back({d, c, apex});
-      if (cells.is_hole(i - 1, j)) triangles.push_back({a, d, apex});
+      if (cells.is_hole(i, j - 1)) walls.add(b, a);
+      if (cells.is_hole(i + 1, j)) walls.add(c, b);
+      if (cells.is_hole(i, j + 1)) walls.add(d, c);
+      if (cells.is_hole(i - 1, j)) walls.add(a, d);
     }
   }
-  return triangles;
+  return std::move(walls.triangles);
 }
 
 LatticeScene::LatticeScene(const EmbreeDevice& device, const DepthLattice& lattice,
-                           const std::vector<Eigen::Vector3f>& vertices)
+                           const LatticeProbe& probe)
     : scene_(rtcNewScene(device)) {
+  std::vector<Eigen::Vector3f> vertices = lattice_vertices(lattice, probe);
+  const std::vector<Triangle> walls = hole_walls(lattice, vertices);
+  has_walls_ = !walls.empty();
   // One more than there are: Embree reads sixteen bytes at the last one.
   const std::size_t bytes = vertices.size() * sizeof(Eigen::Vector3f);
   RTCBuffer buffer = rtcNewBuffer(device, bytes + sizeof(Eigen::Vector3f));
@@ -139,7 +169,7 @@ LatticeScene::LatticeScene(const EmbreeDevice& device, const DepthLattice& latti
   attach(device, scene_.get(), RTC_GEOMETRY_TYPE_GRID, buffer, vertices.size(), kCellsMask,
          RTC_BUFFER_TYPE_GRID, RTC_FORMAT_GRID, present_rectangles(lattice));
   attach(device, scene_.get(), RTC_GEOMETRY_TYPE_TRIANGLE, buffer, vertices.size(), kHolesMask,
-         RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT3, hole_triangles(lattice));
+         RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT3, walls);
   rtcReleaseBuffer(buffer);
   commit_scene(device, scene_.get());
 }

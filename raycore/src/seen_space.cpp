@@ -27,24 +27,37 @@ constexpr double kThinnest = 1e-5;
 struct SeenVolume {
   detail::LatticeProbe probe;
   detail::LatticeScene scene;
-  Eigen::Vector3f apex;
+  Eigen::Vector3d apex;
   double reach;  ///< the largest coordinate
+
+  SeenVolume(const detail::EmbreeDevice& device, const DepthLattice& lattice, double its_reach)
+      : probe(lattice),
+        scene(device, lattice, probe),
+        apex(lattice.camera.centre()),
+        reach(its_reach) {}
 };
 
 double reach_of(const Box& box) {
   return box.min().cwiseAbs().cwiseMax(box.max().cwiseAbs()).maxCoeff();
 }
 
-/// The largest coordinate; infinite if one is no number.
-double reach_of(const std::vector<Eigen::Vector3f>& points) {
-  float reach = 0;
-  for (const Eigen::Vector3f& p : points) {
-    for (const float x : {p.x(), p.y(), p.z()}) {
-      if (!(std::abs(x) <= reach)) reach = std::abs(x);
-      if (std::isnan(x)) return std::numeric_limits<double>::infinity();
+/// The largest coordinate of the surface and of the camera; infinite if one is no number.
+double reach_of(const DepthLattice& lattice) {
+  const PinholeCamera& camera = lattice.camera;
+  double reach = camera.centre().cwiseAbs().maxCoeff();
+  if (camera.centre().hasNaN()) reach = std::numeric_limits<double>::infinity();
+  for (std::size_t j = 0, at = 0; j < lattice.height(); ++j) {
+    for (std::size_t i = 0; i < lattice.width(); ++i, ++at) {
+      const double depth = double(lattice.depth[at]);
+      if (std::isnan(depth)) continue;
+      const Eigen::Vector3d p =
+          camera.unproject(double(lattice.columns[i]), double(lattice.rows[j]), depth);
+      const double largest = p.cwiseAbs().maxCoeff();
+      if (p.hasNaN()) reach = std::numeric_limits<double>::infinity();
+      reach = std::max(reach, largest);
     }
   }
-  return double(reach);
+  return reach;
 }
 
 void check_reach(double reach, const std::string& where) {
@@ -73,7 +86,6 @@ struct SeenSpace::Impl {
     const double reach = std::max(reach_of(box), from.cwiseAbs().maxCoeff());
     detail::WalkJob job;
     for (int axis = 0; axis < 3; ++axis) {
-      job.origin[axis] = origin[axis];
       job.box_min[axis] = float(box.min()[axis] - from[axis]);
       job.box_max[axis] = float(box.max()[axis] - from[axis]);
     }
@@ -81,16 +93,18 @@ struct SeenSpace::Impl {
     job.step = float(kThinnest * reach);
     for (std::size_t i = 0; i < volumes.size(); ++i) {
       const SeenVolume& volume = *volumes[i];
-      const Eigen::Vector3d apex = volume.apex.cast<double>() - from;
+      const Eigen::Vector3d apex = volume.apex - from;
       const double step = kThinnest * std::max(reach, volume.reach);
       // Rays from its apex lie in a border's plane or pass it by; in float they might cross it.
       const bool from_apex = apex.cwiseAbs().maxCoeff() <= 0.1 * step;
-      job.volumes.push_back({detail::ProbeView(volume.probe, -apex),
-                             volume.scene.get(),
-                             {float(apex.x()), float(apex.y()), float(apex.z())},
-                             float(step),
-                             from_apex,
-                             std::uint32_t(i)});
+      job.volumes.push_back(
+          {detail::ProbeView(volume.probe, -apex),
+           volume.scene.get(),
+           {float(apex.x()), float(apex.y()), float(apex.z())},
+           float(step),
+           from_apex,
+           from_apex || !volume.scene.has_walls() ? 0.5f * volume.probe.nearest : 0,
+           std::uint32_t(i)});
     }
     return job;
   }
@@ -100,21 +114,14 @@ SeenSpace::SeenSpace(std::span<const DepthLattice> lattices, const Box& box)
     : impl_(std::make_unique<Impl>(box)) {
   check_reach(reach_of(box), "box");
   const std::size_t count = lattices.size();
-  std::vector<std::vector<Eigen::Vector3f>> vertices(count);
   std::vector<double> reaches(count);
   for (std::size_t i = 0; i < count; ++i) lattices[i].check(name_of(i));
-  tbb::parallel_for(std::size_t(0), count, [&](std::size_t i) {
-    vertices[i] = detail::lattice_vertices(lattices[i]);
-    reaches[i] = reach_of(vertices[i]);
-  });
+  tbb::parallel_for(std::size_t(0), count,
+                    [&](std::size_t i) { reaches[i] = reach_of(lattices[i]); });
   for (std::size_t i = 0; i < count; ++i) check_reach(reaches[i], name_of(i));
   impl_->volumes.resize(count);
   tbb::parallel_for(std::size_t(0), count, [&](std::size_t i) {
-    const DepthLattice& lattice = lattices[i];
-    impl_->volumes[i].reset(new SeenVolume{detail::LatticeProbe(lattice),
-                                           {impl_->device, lattice, vertices[i]},
-                                           vertices[i].back(),
-                                           reaches[i]});
+    impl_->volumes[i] = std::make_unique<const SeenVolume>(impl_->device, lattices[i], reaches[i]);
   });
 }
 

@@ -18,15 +18,15 @@ struct WalkVolume {
   RTCScene scene;
   float apex[3];        ///< the lattice's camera, relative to the rays' origin
   float step;           ///< what is thinner than this may be taken for seen
-  bool from_apex;       ///< rays start at the lattice's camera: they cross no border
+  bool from_apex;       ///< rays start at the lattice's camera: they cross neither border nor wall
+  float clear_depth;    ///< no surface is nearer to the camera; in metres along its axis
   std::uint32_t index;  ///< of the lattice
 };
 
 /// What all walks from one camera share.
 struct WalkJob {
   std::vector<WalkVolume> volumes;
-  float origin[3];
-  float box_min[3], box_max[3];  ///< relative to the origin
+  float box_min[3], box_max[3];  ///< relative to the rays' origin
   float t_far;
   float step;  ///< as a volume's, for the box
 };

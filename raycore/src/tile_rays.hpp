@@ -68,12 +68,12 @@ template <int kAxis>
 
 /// The directions of one tile's pixels.
 [[gnu::always_inline]] inline void fill_directions(const Intrinsics& k, const PixelRotation& R,
-                                                   PixelTile tile, RTCRay16& rays) {
+                                                   PixelTile tile, float* x, float* y, float* z) {
   TilePlaces place;
   place.set(k, &tile, 1);
-  fill_axis<0>(R, place.x, place.y, rays.dir_x);
-  fill_axis<1>(R, place.x, place.y, rays.dir_y);
-  fill_axis<2>(R, place.x, place.y, rays.dir_z);
+  fill_axis<0>(R, place.x, place.y, x);
+  fill_axis<1>(R, place.x, place.y, y);
+  fill_axis<2>(R, place.x, place.y, z);
 }
 
 /// @throws Error bad_input unless Embree may see the rays of every tile of the camera.
