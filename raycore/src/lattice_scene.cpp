@@ -8,8 +8,7 @@
 namespace vantage::detail {
 namespace {
 
-/// Where walls end: nothing that is nearer to the camera is asked for.
-constexpr float kWallTop = 1e6f * kHighest;
+constexpr float kWallTop = kHighest / kNearestPart;
 
 /// Cells of a lattice, each 1 or 0.
 class CellMask {

@@ -1,11 +1,9 @@
 #pragma once
 
-#include <cmath>
-#include <limits>
-
-#include "hit_packet.hpp"
 #include "lattice_probe.hpp"
 #include "lattice_scene.hpp"
+#include "packet.hpp"
+#include "seen_facing.hpp"
 #include "seen_walk.hpp"
 
 // Where sixteen rays that are inside a lattice's volume get out of it.
@@ -46,22 +44,24 @@ struct LaneParts {
                                        const float* t_stop, LaneParts& part, RTCRayHit16& packet) {
   const float u0 = volume.probe.origin[0], v0 = volume.probe.origin[1];
   const float z0 = volume.probe.origin[2], height = volume.probe.probe->height;
+  const float least_z = kNearestPart * volume.probe.probe->nearest;
   const unsigned mask = volume.from_apex ? kCellsMask : kAllMasks;
   RTCRay16& ray = packet.ray;
 #pragma GCC unroll 1
   for (std::size_t i = 0; i < kPacketWidth; ++i) {
-    const float t = part.start[i], dz = d.z[i], z = z0 + t * dz, inverse_z = 1 / z;
+    const float t = part.start[i], dz = d.z[i], its_z = z0 + t * dz;
+    const float z = its_z > least_z ? its_z : least_z, inverse_z = 1 / z;
     const float u = (u0 + t * d.u[i]) * inverse_z, v = (v0 + t * d.v[i]) * inverse_z;
     const float w = height * inverse_z;
     ray.org_x[i] = u, ray.org_y[i] = v, ray.org_z[i] = w;
     ray.dir_x[i] = d.u[i] - u * dz, ray.dir_y[i] = d.v[i] - v * dz, ray.dir_z[i] = -w * dz;
     const float left = t_stop[i] - t, all = left > 0 ? left : 0, some = (kMostDeeper - 1) * z / dz;
     const float length = (dz > 0) & (some < all) ? some : all;
-    const float last_z = z + length * dz, least_z = 1e-6f * z;
+    const float end_z = z + length * dz, last_z = end_z > least_z ? end_z : least_z;
     part.depth[i] = z;
     part.length[i] = length;
     ray.tnear[i] = 0;
-    ray.tfar[i] = length / (last_z > least_z ? last_z : least_z);
+    ray.tfar[i] = length / last_z;
     ray.mask[i] = mask;
     packet.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
     packet.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
@@ -79,56 +79,6 @@ struct LaneParts {
     ray.org_x[i] = u < right ? u : right;
     ray.org_y[i] = v < bottom ? v : bottom;
     ray.dir_x[i] = 0, ray.dir_y[i] = 0;
-  }
-}
-
-/// Turns the hits' normals into those of the planes in the world, of any length, and n_c into
-/// their distance from the lattice's camera times that length.
-[[gnu::always_inline]] inline void turn_normals(const WalkVolume& volume, RTCRayHit16& packet,
-                                                float* n_c) {
-  const float* m = volume.probe.m;
-  const float height = volume.probe.probe->height;
-  const RTCRay16& ray = packet.ray;
-  RTCHit16& hit = packet.hit;
-  make_unit(hit.Ng_x, hit.Ng_y, hit.Ng_z);  // NaN where there is no hit
-#pragma GCC unroll 1
-  for (std::size_t i = 0; i < kPacketWidth; ++i) {
-    // The plane is a u + b v + c w + d = 0. Times z that is a (u z) + b (v z) + d z = -c · (w z).
-    const float a = hit.Ng_x[i], b = hit.Ng_y[i], c = hit.Ng_z[i], s = ray.tfar[i];
-    const float d =
-        -(a * (ray.org_x[i] + s * ray.dir_x[i]) + b * (ray.org_y[i] + s * ray.dir_y[i]) +
-          c * (ray.org_z[i] + s * ray.dir_z[i]));
-    hit.Ng_x[i] = a * m[0] + b * m[3] + d * m[6];
-    hit.Ng_y[i] = a * m[1] + b * m[4] + d * m[7];
-    hit.Ng_z[i] = a * m[2] + b * m[5] + d * m[8];
-    n_c[i] = std::fabs(c) * height;
-  }
-}
-
-/// How the surface at the hits looks at the lattice's camera.
-[[gnu::always_inline]] inline void store_facing(const WalkVolume& volume, const ExitRays& rays,
-                                                const int* hits, RTCRayHit16& packet,
-                                                Exits& exits) {
-  alignas(64) float distance[kPacketWidth], normal[kPacketWidth], reach[kPacketWidth];
-  turn_normals(volume, packet, distance);
-  const RTCHit16& hit = packet.hit;
-  const float ax = volume.apex[0], ay = volume.apex[1], az = volume.apex[2];
-#pragma GCC unroll 1
-  for (std::size_t i = 0; i < kPacketWidth; ++i) {
-    const float t = exits.t[i], nx = hit.Ng_x[i], ny = hit.Ng_y[i], nz = hit.Ng_z[i];
-    const float x = ax - t * rays.x[i], y = ay - t * rays.y[i], z = az - t * rays.z[i];
-    reach[i] = x * x + y * y + z * z;
-    normal[i] = nx * nx + ny * ny + nz * nz;
-  }
-#pragma GCC unroll 1
-  for (std::size_t i = 0; i < kPacketWidth; ++i) reach[i] = std::sqrt(reach[i]);
-#pragma GCC unroll 1
-  for (std::size_t i = 0; i < kPacketWidth; ++i) normal[i] = std::sqrt(normal[i]);
-#pragma GCC unroll 1
-  for (std::size_t i = 0; i < kPacketWidth; ++i) {
-    const float ratio = distance[i] / (reach[i] * normal[i] + std::numeric_limits<float>::min());
-    const float at_most_one = ratio < 1 ? ratio : 1, old = exits.facing[i];
-    exits.facing[i] = hits[i] != 0 ? at_most_one : old;
   }
 }
 
@@ -164,7 +114,8 @@ struct LaneParts {
     any_more |= part.asked[i];
     part.start[i] = end;
   }
-  if (any_hit != 0) store_facing(volume, rays, hits, packet, exits);
+  if (any_hit != 0)
+    store_facing(volume, rays.x, rays.y, rays.z, exits.t, hits, packet, exits.facing);
   return any_more != 0;
 }
 

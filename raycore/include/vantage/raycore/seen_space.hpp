@@ -33,9 +33,11 @@ struct UnseenHits {
 /// it leaves the last one, or the box's face where no volume is. It may start anywhere: inside or
 /// outside of the box and of any volume.
 ///
-/// Each lattice is an Embree scene of its own: its cells as grids, and the triangles that join the
-/// borders of its image and of its holes to the camera's centre. What is thinner along a ray than
-/// 1e-5 of the coordinates on its way may be taken for seen. Immutable; thread-safe.
+/// Each lattice is an Embree scene of its own, in its camera's projective space: pixels and inverse
+/// depth, where lines stay lines and planes planes. Its cells are a field of heights there, as
+/// Embree's grids; the borders of holes are upright walls. In the world, cells at edges in depth
+/// would be slivers in huge boxes, and rays take half as long again. What is thinner along a ray
+/// than 1e-5 of the coordinates on its way may be taken for seen. Immutable; thread-safe.
 class VANTAGE_API SeenSpace {
  public:
   /// Builds in the caller's task arena.
