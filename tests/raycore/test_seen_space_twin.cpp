@@ -42,11 +42,11 @@ bool nearly_agree(const UnseenPixel& pixel, const PlainSeenSpace& plain, double 
 }
 
 struct Tally {
-  std::size_t rays = 0, surfaces = 0, faces = 0, misses = 0, close_calls = 0;
+  std::size_t rays = 0, surfaces = 0, faces = 0, misses = 0, close_calls = 0, wrong = 0;
 };
 
 void compare(const PinholeCamera& viewer, const SeenSpace& space, const PlainSeenSpace& plain,
-             Tally& tally) {
+             bool may_be_wrong, Tally& tally) {
   const double t_far = viewer.range().far_m;
   for (const UnseenPixel& pixel : unseen_pixels(space, viewer)) {
     CAPTURE(pixel.u);
@@ -61,20 +61,30 @@ void compare(const PinholeCamera& viewer, const SeenSpace& space, const PlainSee
     if (agree(pixel, truth)) continue;
     ++tally.close_calls;
     CAPTURE(truth.t);
-    CHECK(nearly_agree(pixel, plain, t_far));
+    const bool is_near = nearly_agree(pixel, plain, t_far);
+    tally.wrong += !is_near;
+    if (may_be_wrong) continue;
+    CHECK(is_near);
   }
 }
 
-Tally compare_views(ViewerPlace place, std::uint32_t first_seed) {
+/// @param beside_m how far in front of the chosen place the viewer may stand
+Tally compare_views(ViewerPlace place, std::uint32_t first_seed, double beside_m = 0) {
   Tally tally;
   for (std::uint32_t seed = first_seed, end = seed + scene_count(60); seed < end; ++seed) {
     CAPTURE(seed);
-    const RandomLattices scene = random_lattices(seed);
+    RandomLattices scene = random_lattices(seed);
+    if (beside_m > 0) scene.box = Box({-1, -1, -1}, {1, 1, 1});  // so that rays begin at the viewer
     const SeenSpace space(scene.lattices, scene.box);
     const PlainSeenSpace plain(scene.lattices, scene.box);
     Random random(seed);
     for (int view = 0; view < 2; ++view) {
-      compare(random_viewer(random, scene, place), space, plain, tally);
+      const PinholeCamera viewer = random_viewer(random, scene, place);
+      const Pose& pose = viewer.T_world_cam();
+      const Eigen::Vector3d forwards = pose.rotation().col(2) + 0.2 * random.direction();
+      const Eigen::Vector3d shift = beside_m * std::pow(10, -random.uniform(0, 3)) * forwards;
+      compare(viewer.moved_to(Pose::from_rotation(pose.rotation(), pose.translation() + shift)),
+              space, plain, beside_m > 0, tally);
     }
   }
   return tally;
@@ -98,4 +108,13 @@ TEST_CASE("the same from where a lattice's camera stands, through its very pixel
   const Tally tally = compare_views(ViewerPlace::lattice_camera, 1000);
   CHECK(tally.close_calls <= tally.rays / 50);
   CHECK(tally.surfaces >= enough(10000));
+}
+
+TEST_CASE("the same from close in front of a lattice's camera") {
+  // Rays begin at as little as a ten-thousandth of the depth that they get to. Where cells are a
+  // twentieth of a pixel wide, a hit is a few hundred-thousandths off.
+  const Tally tally = compare_views(ViewerPlace::lattice_camera, 2000, 0.03);
+  CHECK(tally.wrong <= tally.rays / 5000);
+  CHECK(tally.close_calls <= tally.rays / 100);
+  CHECK(tally.surfaces > enough(10000));
 }
