@@ -84,7 +84,7 @@ TEST_CASE("objects that several images name are one, if their poses agree") {
 }
 
 TEST_CASE(
-    "a cell's known objects are the truth before the dataset's; those without a type are not") {
+    "a cell's known objects are the truth before the dataset's, and those without a type are not") {
   const test::TemporaryFolder folder;
   const BopScene scene = scene_in(folder.path());
   folder.write("scene_gt.json",

@@ -84,7 +84,7 @@ TEST_CASE("a known object's markers are where its pose puts them") {
   }
 }
 
-TEST_CASE("a knowledge base of several files; one that is named twice counts once") {
+TEST_CASE("a knowledge base of several files, and one that is named twice counts once") {
   TemporaryFolder folder;
   folder.write("more.yaml", "object_types: [{name: b, shape: {sphere: {radius_m: 1}}}]\n");
   const Workcell cell = load(folder, "knowledge_base: [types.yaml, more.yaml, types.yaml]\n");

@@ -105,7 +105,7 @@ TEST_CASE("clutter: several instances of a type, and errors as NumPy computes th
   CHECK(method(report, "svd")["all"]["recall"].get<double>() < 0.5);  // knows one of each type
 }
 
-TEST_CASE("the same bytes at any number of threads; another seed, others") {
+TEST_CASE("the same bytes at any number of threads, others with another seed") {
   const test::TemporaryFolder folder;
   const fs::path data = folder / "data";
   simulate("castle", data);

@@ -42,7 +42,7 @@ TEST_CASE("a continuous symmetry is cut into 315 turns, for 1 % of the diameter 
   CHECK(symmetry_motions({.discrete = {}, .continuous = {{axis}}}, 0.5).size() == 7);
 }
 
-TEST_CASE("discrete motions come first, then the turns; two axes stand side by side") {
+TEST_CASE("discrete motions come first, then the turns, and two axes stand side by side") {
   const Pose flip = turn(std::numbers::pi, Eigen::Vector3d::UnitX(), {0.01, 0, 0});
   const ContinuousSymmetry around_z{Eigen::Vector3d::UnitZ()};
   const auto motions = symmetry_motions({.discrete = {flip}, .continuous = {around_z}});

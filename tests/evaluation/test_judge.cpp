@@ -60,7 +60,7 @@ TEST_CASE("types are not mixed up, and each instance is used once") {
   CHECK(verdict.objects[2].translation_m == doctest::Approx(0.05));
 }
 
-TEST_CASE("correct is what lies below the threshold; BOP's ten thresholds are looked at, too") {
+TEST_CASE("correct is what lies below the threshold, and BOP's ten thresholds are looked at, too") {
   const Reconstruction off{{estimate(cube_type("blue"), at(0, 0.05 + 0.02))}, {}};
   const double share = 0.02 / (0.05 * std::sqrt(3.0));  // 0.23
   for (const bool enough : {true, false}) {

@@ -33,7 +33,7 @@ TEST_CASE("a table as text: columns line up whatever bytes a character has") {
         "Read it so.\n");
 }
 
-TEST_CASE("a table without groups has one line of headings; long notes are wrapped") {
+TEST_CASE("a table without groups has one line of headings, and long notes are wrapped") {
   ReportTable table{"T", {{"a"}, {"b"}}};
   table.rows.push_back({{"1", "2"}});
   for (int i = 0; i < 60; ++i) table.note += "word ";

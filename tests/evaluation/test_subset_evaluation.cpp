@@ -79,7 +79,7 @@ TEST_CASE("subsets that see every object that all cameras see") {
   CHECK(covering == std::vector<CameraSubset>{{0}, {0, 1}, {0, 2}, {1, 2}, {0, 1, 2}});
 }
 
-TEST_CASE("every subset in every trial, in order; errors by the number of cameras") {
+TEST_CASE("every subset in every trial, in order, with errors by the number of cameras") {
   const TwoCubes scene;
   const auto runs = run(scene, {.subsets = camera_subsets(3, 1, 3), .trials = 2});
   REQUIRE(runs.size() == 14);

@@ -69,7 +69,8 @@ TEST_CASE("moving everything together leaves the scene as consistent as it was")
   CHECK(self_consistency_mm2(pairs, poses) == doctest::Approx(before).epsilon(1e-9));
 }
 
-TEST_CASE("a corner with several vertices counts once; corners that nearly touch do not count") {
+TEST_CASE(
+    "a corner with several vertices counts once, and corners that nearly touch do not count") {
   const TriangleMesh mesh = box_solid({0.05, 0.05, 0.05});
   std::vector<Eigen::Vector3f> vertices;  // every triangle with corners of its own
   std::vector<Triangle> triangles;

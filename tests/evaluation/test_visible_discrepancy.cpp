@@ -56,7 +56,7 @@ TEST_CASE("an object beside its place shares nothing with it") {
   for (const double error : errors) CHECK(error == 1);
 }
 
-TEST_CASE("what stands before an object hides it; 15 mm do not") {
+TEST_CASE("what stands before an object hides it, and 15 mm do not") {
   const TriangleMesh box = box_solid({0.2, 0.2, 0.1});
   const ObjectView view = view_of(box, Pose::from_translation({0, 0, 1.05}), kCamera);
   CHECK(visible_fraction(view, flat(0.5), kCamera, 0.015) == 0);

@@ -80,12 +80,16 @@ TEST_CASE("the light method's flaw: what nobody knows casts no shade") {
   CHECK(dark.scorer.upper_bound(view_from({-0.8, 0, 0.1})) == 0);
 }
 
-TEST_CASE("every method has a name by which it is made; others are refused") {
-  const Lit lit(lit_cube(), kArea);
+TEST_CASE("every method has a name by which it is made, and others are refused") {
+  WorldModel measured = lit_cube();
+  Observer& camera = measured.cameras[0];
+  camera.depth =
+      std::make_shared<const DepthImage>(known_scene(measured)->render_depth(camera.camera));
+  const Lit lit(measured, kArea);
   for (const std::string& name : method_names()) {
     CHECK(make_view_scorer({name}, lit.scene, lit.world, {0.1, 3})->name() == name);
   }
-  test::expect_bad_input("method", "voxel, shadow, light", [&] {
+  test::expect_bad_input("method", "voxel, shadow, mesh, light", [&] {
     make_view_scorer({"voxels"}, lit.scene, lit.world, {0.1, 3});
   });
 }

@@ -77,11 +77,12 @@ TEST_CASE("what a camera looked straight at counts by the angle at which it did"
     CAPTURE(power);
     const MeshScorer scorer(world, kRange, power, kSmall.width);
     // From the same place, every ray leaves what was seen at depth 1, if not at the box's sides.
-    const PinholeCamera view = view_at({0, 0, 0}, {1, 0, 0});
+    // A little narrower than the camera that measured: its outermost rays lie in the seen's sides.
+    const PinholeCamera view = view_at({0, 0, 0}, {1, 0, 0}, {64, 48, 63, 63, 31.5, 23.5});
     double expected = 0;
     for (int v = 0; v < 48; ++v) {
       for (int u = 0; u < 64; ++u) {
-        const double x = (u - 31.5) / 60, y = (v - 23.5) / 60;
+        const double x = (u - 31.5) / 63, y = (v - 23.5) / 63;
         if (std::abs(x) > 0.2 || std::abs(y) > 0.2) continue;
         expected += (1 - 1 / std::sqrt(1 + x * x + y * y)) * std::pow(1 / kRange.far_m, power);
       }

@@ -111,7 +111,7 @@ TEST_CASE("what something is goes up through types and through names that are no
   CHECK(base.types_that_are("nobody").empty());
 }
 
-TEST_CASE("two ways up to one ancestor are no circle; a long way is none, either") {
+TEST_CASE("two ways up to one ancestor are no circle, and a long way is none, either") {
   const MemoryKnowledgeBase diamond({type_of("a", {"b", "c"})}, {{"b", {"d"}}, {"c", {"d"}}});
   CHECK(diamond.is_a("a", "d"));
   Hierarchy chain;

@@ -99,7 +99,8 @@ TEST_CASE("vote lattice: in four dimensions shares are those of the hat") {
   }
 }
 
-TEST_CASE("vote table: n equal votes are n high, wherever the lattice lies; a vote alone is 1") {
+TEST_CASE(
+    "vote table: n equal votes are n high, wherever the lattice lies, and a vote alone is 1") {
   Random random(3);
   for (std::uint32_t i = 0; i < scene_count(60); ++i) {
     VoteTable table(random_grid(random));

@@ -153,7 +153,8 @@ TEST_CASE("voting: what a type does not carry, where it would have its surface, 
   check_parts(without.unexplained[0].reason, {"against"});
 }
 
-TEST_CASE("voting: a single marker from the front may be tilted two ways; more views settle it") {
+TEST_CASE(
+    "voting: a single marker from the front may be tilted two ways, and more views settle it") {
   Random random(4);
   const MemoryKnowledgeBase knowledge({marked_box("cube", kCube, 0, 1)});
   std::size_t ambiguous = 0, right = 0;

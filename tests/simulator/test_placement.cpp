@@ -110,7 +110,7 @@ TEST_CASE("placement: every body lies in one of its resting poses, turned around
   }
 }
 
-TEST_CASE("placement: the seed decides, to the last bit; later bodies move no earlier ones") {
+TEST_CASE("placement: the seed decides, to the last bit, and later bodies move no earlier ones") {
   const std::vector<Pose> poses = place_at_rest(clutter(8), {}, {kBoard, 7});
   const std::vector<Pose> again = place_at_rest(clutter(8), {}, {kBoard, 7});
   const std::vector<Pose> more = place_at_rest(clutter(12), {}, {kBoard, 7});

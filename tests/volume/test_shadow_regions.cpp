@@ -132,7 +132,7 @@ TEST_CASE("large tiles are regions like any other, and revealed voxels belong to
   CHECK(regions.label({130, 5, 5}) == 0);
 }
 
-TEST_CASE("shadow regions are the same at any number of threads; no shadow has none") {
+TEST_CASE("shadow regions are the same at any number of threads, and no shadow has none") {
   const tbb::global_control allow(tbb::global_control::max_allowed_parallelism, 8);
   const auto grid = noise(1, 30);
   const std::vector<std::int32_t> expected = labels_of(ShadowRegions(*grid));

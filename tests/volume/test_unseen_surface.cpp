@@ -212,7 +212,8 @@ TEST_CASE("the unseen surface of what cameras saw is closed, near the truth, and
   }
 }
 
-TEST_CASE("a lattice that sees all leaves no surface; threads make no difference; errors") {
+TEST_CASE(
+    "a lattice that sees all leaves no surface, threads make no difference, errors are told") {
   const GridGeometry geometry =
       GridGeometry::covering(Box({-0.05, -0.05, 0}, {0.05, 0.05, 0.1}), 0.01);
   const std::vector<DepthLattice> all{flat(above(0.6), 2)};

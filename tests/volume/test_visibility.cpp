@@ -112,7 +112,7 @@ TEST_CASE("the region of interest holds every pixel that can see the work area, 
   CHECK(spare / count < 8);
 }
 
-TEST_CASE("a camera in the work area, or beside it, has a mesh; one that looks away has none") {
+TEST_CASE("a camera in the work area, or beside it, has a mesh, and one that looks away has none") {
   const auto mesh = [](const Eigen::Vector3d& eye, const Eigen::Vector3d& target) {
     return visibility_lattice(image_of(camera_at(eye, target), tilted), kArea, options_of(8));
   };
@@ -275,7 +275,7 @@ TEST_CASE("a mesh frees no space out of reach of what was measured") {
   }
 }
 
-TEST_CASE("images of a single row or column have no cells; one next to them does") {
+TEST_CASE("images of a single row or column have no cells, and one next to them does") {
   const auto one = [](int width, int height) {
     const PinholeCamera camera({width, height, 70, 70, 0, 0},
                                Pose::looking_at({0, 0, 1}, {0, 0, 0}));

@@ -44,7 +44,8 @@ TEST_CASE("volume options: what is no number or out of range is refused, by its 
                          [&] { options.check(); });
 }
 
-TEST_CASE("stereo noise grows with the square of the distance; anti-aliasing follows the mode") {
+TEST_CASE(
+    "stereo noise grows with the square of the distance, and anti-aliasing follows the mode") {
   const StereoNoise d435;
   CHECK(d435.sigma_m(0.5) == doctest::Approx(0.00094).epsilon(0.01));
   CHECK(d435.sigma_m(2) == doctest::Approx(16 * d435.sigma_m(0.5)));
