@@ -53,6 +53,11 @@ void add_mesh_options(CLI::App& verb, MeshOptions& mesh) {
                   "the depth, which takes away the false shadow that noise makes")
       ->check(CLI::Range(0.0, 100.0))
       ->capture_default_str();
+  verb.add_option("--mesh-opening", mesh.opening_m,
+                  "Of --method mesh: what is unseen, but a cube of this edge does not fit in, "
+                  "counts as seen, metres: noise leaves such shadow, too; 0: all counts")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
   verb.add_option("--mesh-exact", mesh.exact_views,
                   "Of --method mesh: with more views than this, servo iterations included, a "
                   "shortlist of them is scored exactly")

@@ -73,6 +73,7 @@ Json mesh_json(const MethodOptions& method) {
           {"holes", visibility.holes == DepthHoles::fill ? "fill" : "unknown"},
           {"fill_reach_px", visibility.fill_reach_px},
           {"offset_sigmas", visibility.offset_sigmas},
+          {"opening_m", method.mesh.opening_m},
           {"enlarge", method.mesh.enlarge},
           {"image_width", method.mesh.image_width},
           {"exact_views", method.mesh.exact_views},

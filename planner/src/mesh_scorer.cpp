@@ -15,6 +15,7 @@
 #include "vantage/raycore/error.hpp"
 #include "vantage/raycore/seen_space.hpp"
 #include "vantage/volume/classify.hpp"
+#include "vantage/volume/shadow_filter.hpp"
 
 namespace vantage {
 namespace {
@@ -49,6 +50,13 @@ TileRange tiles_of(const PinholeCamera& view, const Box& box) {
   const Intrinsics& k = view.intrinsics();
   return {tile(shown.rect.u0 - 0.5, k.width), tile(shown.rect.u1 + 1.5, k.width),
           tile(shown.rect.v0 - 0.5, k.height), tile(shown.rect.v1 + 1.5, k.height), shown.z_max};
+}
+
+/// What is unseen, less the false shadow.
+SeenSpace seen_space(const SeenWorld& world) {
+  if (world.opened == nullptr) return {world.lattices, world.work_area};
+  const TriangleMesh shell = shell_around_shadow(*world.opened);
+  return {world.lattices, world.work_area, &shell};
 }
 
 }  // namespace
@@ -124,7 +132,7 @@ struct MeshScorer::Impl {
 
 MeshScorer::MeshScorer(const SeenWorld& world, const DepthRange& range, double depth_power,
                        int image_width, MeshWeight weight)
-    : impl_(new Impl{SeenSpace(world.lattices, world.work_area), known_scene(world.known),
+    : impl_(new Impl{seen_space(world), known_scene(world.known),
                      detail::DepthWeight(weight == MeshWeight::volume ? 3 : depth_power, range),
                      weight == MeshWeight::volume, image_width}) {
   MeshOptions{.image_width = image_width}.check();

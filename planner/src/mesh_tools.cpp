@@ -1,6 +1,8 @@
 #include "mesh_tools.hpp"
 
+#include "shadow_middle.hpp"
 #include "vantage/volume/carve.hpp"
+#include "vantage/volume/shadow_filter.hpp"
 
 namespace vantage::detail {
 namespace {
@@ -9,9 +11,24 @@ namespace {
 // interest.
 constexpr double kCoarse = 40;
 
-PlanningScene carved_scene(const SeenWorld& seen, double voxel_size_m) {
-  const auto geometry = GridGeometry::covering(seen.work_area, voxel_size_m);
-  return {seen.known, carve(seen.lattices, geometry, seen.known), OccluderMode::mesh};
+std::shared_ptr<const StateGrid> carved(const SeenWorld& seen, double voxel_size_m) {
+  return carve(seen.lattices, GridGeometry::covering(seen.work_area, voxel_size_m), seen.known);
+}
+
+/// The scene in which views are scored cheaply.
+PlanningScene shortlist_scene(const SeenWorld& seen, const MeshOptions& options) {
+  std::shared_ptr<const StateGrid> grid = carved(seen, options.shortlist_voxel_m);
+  if (options.opening_m > 0) {
+    grid = opened_shadow(*grid, opening_radius(*grid, options.opening_m));
+  }
+  return {seen.known, std::move(grid), OccluderMode::mesh};
+}
+
+Eigen::Vector3d middle_of_unseen(const SeenWorld& seen) {
+  const std::shared_ptr<const StateGrid> grid =
+      seen.opened ? seen.opened : carved(seen, seen.work_area.size().maxCoeff() / kCoarse);
+  const Points centres = grid->centres(VoxelState::shadow);
+  return middle_of_shadow(*grid, centres);
 }
 
 }  // namespace
@@ -24,12 +41,11 @@ MeshTools mesh_tools(const WorldModel& world, const Box& work_area, const PlanRe
   MeshTools tools;
   tools.scorer = std::make_shared<const MeshScorer>(seen, request.range, power, options.image_width,
                                                     options.weight);
-  const bool shortlist = views > std::size_t(options.exact_views);
-  const double voxel_size_m =
-      shortlist ? options.shortlist_voxel_m : work_area.size().maxCoeff() / kCoarse;
-  const PlanningScene carved = carved_scene(seen, voxel_size_m);
-  tools.middle_of_unseen = carved.middle_of_shadow();
-  if (shortlist) tools.cheap = std::make_shared<const ShadowScorer>(carved, request.range, power);
+  tools.middle_of_unseen = middle_of_unseen(seen);
+  if (views > std::size_t(options.exact_views)) {
+    tools.cheap =
+        std::make_shared<const ShadowScorer>(shortlist_scene(seen, options), request.range, power);
+  }
   return tools;
 }
 

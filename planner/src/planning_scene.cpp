@@ -1,5 +1,7 @@
 #include "vantage/planner/planning_scene.hpp"
 
+#include "shadow_middle.hpp"
+
 #include "vantage/raycore/scene_builder.hpp"
 #include "vantage/volume/classify.hpp"
 
@@ -18,11 +20,14 @@ PlanningScene::PlanningScene(const WorldModel& world, std::shared_ptr<const Stat
 }
 
 Eigen::Vector3d PlanningScene::middle_of_shadow() const {
-  const PointsView points = shadow_centres();
-  if (points.size == 0) return grid().geometry().box().centre();
+  return detail::middle_of_shadow(*grid_, shadow_centres());
+}
+
+Eigen::Vector3d detail::middle_of_shadow(const StateGrid& grid, PointsView centres) {
+  if (centres.size == 0) return grid.geometry().box().centre();
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  for (std::size_t i = 0; i < points.size; ++i) sum += points[i].cast<double>();
-  return sum / double(points.size);
+  for (std::size_t i = 0; i < centres.size; ++i) sum += centres[i].cast<double>();
+  return sum / double(centres.size);
 }
 
 }  // namespace vantage

@@ -1,9 +1,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "vantage/planner/mesh_scorer.hpp"
 #include "vantage/raycore/error.hpp"
+#include "vantage/volume/carve.hpp"
+#include "vantage/volume/shadow_filter.hpp"
 
 namespace vantage {
 namespace {
@@ -38,6 +41,10 @@ void expect_depth(const WorldModel& world) {
 
 void MeshOptions::check() const {
   visibility.check();
+  if (!std::isfinite(opening_m) || opening_m < 0) {
+    throw bad_input(
+        "mesh", fmt::format("an opening of {} m; expected a finite length, 0 or above", opening_m));
+  }
   if (!(enlarge >= 1 && enlarge <= 10)) {  // also NaN
     throw bad_input("mesh",
                     fmt::format("known objects are enlarged {} times; expected 1 to 10", enlarge));
@@ -65,6 +72,12 @@ SeenWorld seen_world(const WorldModel& world, const Box& work_area, const MeshOp
     if (auto lattice = visibility_lattice(image, work_area, options.visibility)) {
       seen.lattices.push_back(std::move(*lattice));
     }
+  }
+  if (options.opening_m > 0) {
+    // Three voxels of the cube's edge: the smallest number that an opening can be done with.
+    const auto geometry = GridGeometry::covering(work_area, options.opening_m / 3);
+    const auto carved = carve(seen.lattices, geometry, seen.known);
+    seen.opened = opened_shadow(*carved, opening_radius(*carved, options.opening_m));
   }
   return seen;
 }

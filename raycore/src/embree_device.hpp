@@ -1,5 +1,8 @@
 #pragma once
 
+#include <memory>
+#include <type_traits>
+
 #include "embree.hpp"
 
 namespace vantage::detail {
@@ -21,6 +24,11 @@ class EmbreeDevice {
  private:
   RTCDevice device_;
 };
+
+struct ReleaseScene {
+  void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
+};
+using OwnedScene = std::unique_ptr<std::remove_pointer_t<RTCScene>, ReleaseScene>;
 
 /// Commits a scene as all of ours are: robust, because otherwise rays slip through shared edges.
 void commit_scene(const EmbreeDevice& device, RTCScene scene);

@@ -2,8 +2,6 @@
 
 #include <Eigen/Core>
 #include <cstddef>
-#include <memory>
-#include <type_traits>
 #include <vector>
 
 #include "embree_device.hpp"
@@ -44,10 +42,7 @@ class LatticeScene {
   bool has_walls() const { return has_walls_; }
 
  private:
-  struct Release {
-    void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
-  };
-  std::unique_ptr<std::remove_pointer_t<RTCScene>, Release> scene_;
+  OwnedScene scene_;
   bool has_walls_;
 };
 

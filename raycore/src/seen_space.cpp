@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,7 @@
 #include "lattice_scene.hpp"
 #include "packet.hpp"
 #include "seen_walk.hpp"
+#include "shell_scene.hpp"
 #include "tile_rays.hpp"
 #include "vantage/raycore/error.hpp"
 
@@ -77,6 +79,7 @@ struct SeenSpace::Impl {
   Box box;
   detail::EmbreeDevice device;
   std::vector<std::unique_ptr<const SeenVolume>> volumes;  // in the lattices' order
+  std::optional<detail::ShellScene> shell;
 
   explicit Impl(const Box& seen_box) : box(seen_box) {}
 
@@ -91,6 +94,7 @@ struct SeenSpace::Impl {
     }
     job.t_far = float(camera.range().far_m);
     job.step = float(kThinnest * reach);
+    if (shell) job.shell = {shell->get(), {origin.x(), origin.y(), origin.z()}};
     for (std::size_t i = 0; i < volumes.size(); ++i) {
       const SeenVolume& volume = *volumes[i];
       const Eigen::Vector3d apex = volume.apex - from;
@@ -110,9 +114,11 @@ struct SeenSpace::Impl {
   }
 };
 
-SeenSpace::SeenSpace(std::span<const DepthLattice> lattices, const Box& box)
+SeenSpace::SeenSpace(std::span<const DepthLattice> lattices, const Box& box,
+                     const TriangleMesh* shell)
     : impl_(std::make_unique<Impl>(box)) {
   check_reach(reach_of(box), "box");
+  if (shell != nullptr) impl_->shell.emplace(impl_->device, *shell);
   const std::size_t count = lattices.size();
   std::vector<double> reaches(count);
   for (std::size_t i = 0; i < count; ++i) lattices[i].check(name_of(i));

@@ -67,9 +67,8 @@ struct Walkers {
   return any != 0;
 }
 
-/// The walkers that got out of the volume go there.
-[[gnu::always_inline]] inline void move_on(const WalkVolume& volume, const Exits& exits,
-                                           Walkers& w) {
+/// The walkers that got out of a volume go there.
+[[gnu::always_inline]] inline void move_on(std::uint32_t index, const Exits& exits, Walkers& w) {
 #pragma GCC unroll 1
   for (std::size_t i = 0; i < kPacketWidth; ++i) {
     const bool moves = exits.found[i] != 0;
@@ -78,7 +77,7 @@ struct Walkers {
     const std::uint32_t source = w.source[i];
     w.t[i] = moves ? t : old_t;
     w.facing[i] = moves ? facing : old_facing;
-    w.source[i] = moves ? volume.index : source;
+    w.source[i] = moves ? index : source;
   }
 }
 
@@ -142,15 +141,47 @@ void ask_again(const WalkVolume& volume, QueryContext& context, Walkers& w, cons
     any_missed |= missed[i];
   }
   if (any_missed != 0) ask_again(volume, context, w, t_near, t_stop, missed, exits);
-  move_on(volume, exits, w);
+  move_on(volume.index, exits, w);
   return true;
+}
+
+/// Lets the walkers that are outside of the shell go to where they enter it, or to their ends.
+[[gnu::always_inline]] inline void enter_shell(const WalkJob& job, QueryContext& context,
+                                               Walkers& w, Exits& exits) {
+  RTCRay16& ray = w.packet.ray;
+  RTCHit16& hit = w.packet.hit;
+#pragma GCC unroll 1
+  for (std::size_t i = 0; i < kPacketWidth; ++i) {
+    ray.org_x[i] = job.shell.origin[0];
+    ray.org_y[i] = job.shell.origin[1];
+    ray.org_z[i] = job.shell.origin[2];
+    ray.dir_x[i] = w.dir_x[i], ray.dir_y[i] = w.dir_y[i], ray.dir_z[i] = w.dir_z[i];
+    ray.tnear[i] = w.t[i] + job.step;
+    // Beyond the box, too: what is inside there is inside.
+    ray.tfar[i] = std::numeric_limits<float>::infinity();
+    ray.mask[i] = kAllMasks;
+    hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
+    hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
+  }
+  context.intersect16(w.walking, job.shell.scene, &w.packet);
+#pragma GCC unroll 1
+  for (std::size_t i = 0; i < kPacketWidth; ++i) {
+    const float outwards =
+        hit.Ng_x[i] * ray.dir_x[i] + hit.Ng_y[i] * ray.dir_y[i] + hit.Ng_z[i] * ray.dir_z[i];
+    const bool is_hit = hit.geomID[i] != RTC_INVALID_GEOMETRY_ID;
+    const float entry = is_hit ? ray.tfar[i] : w.t_end[i];
+    exits.found[i] = w.walking[i] & -int(!is_hit | (outwards < 0));
+    exits.t[i] = entry < w.t_end[i] ? entry : w.t_end[i];
+    exits.facing[i] = 0;
+  }
+  move_on(UnseenHits::kNoSource, exits, w);
 }
 
 /// After a volume: who goes on?
 /// @returns whether anyone does.
 [[gnu::always_inline]] inline bool count_refusals(const WalkJob& job, const int* exits,
                                                   Walkers& w) {
-  const int all = int(job.volumes.size());
+  const int all = int(job.volumes.size()) + (job.shell.scene != nullptr ? 1 : 0);
   int any = 0;
 #pragma GCC unroll 1
   for (std::size_t i = 0; i < kPacketWidth; ++i) {
@@ -163,10 +194,15 @@ void ask_again(const WalkVolume& volume, QueryContext& context, Walkers& w, cons
 }
 
 [[gnu::always_inline]] inline void walk(const WalkJob& job, QueryContext& context, Walkers& w) {
-  if (!start(job, w) || job.volumes.empty()) return;
+  const bool has_shell = job.shell.scene != nullptr;
+  if (!start(job, w) || (job.volumes.empty() && !has_shell)) return;
   Exits exits;
   alignas(64) constexpr int kNone[kPacketWidth] = {};
   for (;;) {
+    if (has_shell) {
+      enter_shell(job, context, w, exits);
+      if (!count_refusals(job, exits.found, w)) return;
+    }
     for (const WalkVolume& volume : job.volumes) {
       const bool any = leave(volume, context, w, exits);
       if (!count_refusals(job, any ? exits.found : kNone, w)) return;

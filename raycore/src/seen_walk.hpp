@@ -23,8 +23,15 @@ struct WalkVolume {
   std::uint32_t index;  ///< of the lattice
 };
 
+/// The shell that nothing outside of counts as unseen, if there is one.
+struct WalkShell {
+  RTCScene scene = nullptr;
+  float origin[3] = {};  ///< of the rays, in the world
+};
+
 /// What all walks from one camera share.
 struct WalkJob {
+  WalkShell shell;
   std::vector<WalkVolume> volumes;
   float box_min[3], box_max[3];  ///< relative to the rays' origin
   float t_far;

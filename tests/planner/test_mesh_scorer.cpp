@@ -5,6 +5,7 @@
 
 #include "reference/random_scene.hpp"
 #include "reference/random_workcell.hpp"
+#include "scored_space.hpp"
 #include "support/expect_error.hpp"
 #include "support/scene_count.hpp"
 #include "vantage/planner/mesh_scorer.hpp"
@@ -40,7 +41,7 @@ struct PlainSight {
 };
 
 PlainSight plain_sight(const SeenWorld& world, const PinholeCamera& view, double power) {
-  const SeenSpace seen(world.lattices, world.work_area);
+  const auto seen = test::scored_space(world);
   const auto known = known_scene(world.known);
   PlainSight sight;
   for (int v = 0; v < view.intrinsics().height; ++v) {
@@ -48,7 +49,7 @@ PlainSight plain_sight(const SeenWorld& world, const PinholeCamera& view, double
       const std::array tile{PixelTile{std::uint16_t(u / 4), std::uint16_t(v / 4)}};
       std::array<UnseenHits, 1> unseen;
       std::array<TileHits, 1> object;
-      seen.first_unseen(view, tile, unseen);
+      seen->first_unseen(view, tile, unseen);
       known->first_hits(view, tile, object);
       const int lane = 4 * (v % 4) + u % 4;
       const double depth_m = double(unseen[0].t[lane]), facing = double(unseen[0].facing[lane]);
@@ -168,6 +169,35 @@ TEST_CASE("a view is scored by a small image of its own field of view") {
   CHECK(scorer.look(same).score);
 }
 
+TEST_CASE(
+    "what noise leaves unseen on the floor counts as seen, a box that stands there does not") {
+  // A camera looks down at a floor where some depths are 8 mm too small.
+  const PinholeCamera camera(kSmall, Pose::looking_at({0, 0, 1}, {0, 0, 0}), kRange);
+  const Box area({-0.2, -0.2, 0}, {0.2, 0.2, 0.2});
+  Random random(7);
+  std::vector<float> depths(64 * 48, 1.0f);
+  for (float& depth : depths) depth -= random.below(4) == 0 ? 0.008f : 0.0f;
+  const auto score = [&](double opening_m) {
+    WorldModel world;
+    world.cameras.push_back({"above", camera, std::make_shared<const DepthImage>(64, 48, depths)});
+    MeshOptions options;
+    options.visibility.step_px = 1;
+    options.visibility.offset_sigmas = 0;
+    options.opening_m = opening_m;
+    const MeshScorer scorer(seen_world(world, area, options), kRange, 6, 64);
+    return double(exact_score(scorer, view_at({0.6, 0, 0.5}, {0, 0, 0.05}))) * scorer.unit();
+  };
+  const double false_shadow = score(0);
+  CHECK(false_shadow > 0);
+  CHECK(score(0.025) == 0);
+  for (int v = 20; v < 28; ++v) {  // 13 cm wide, 10 cm high
+    for (int u = 28; u < 36; ++u) depths[std::size_t(64 * v + u)] = 0.9f;
+  }
+  const double with_box = score(0), box = score(0.025);
+  CHECK(box > 0.2 * false_shadow);
+  CHECK(box < with_box - 0.5 * false_shadow);
+}
+
 TEST_CASE("known objects are enlarged about their middle, static structures are not") {
   WorldModel world = test::wall_world();
   world.cameras[0].depth =
@@ -202,6 +232,8 @@ TEST_CASE("the mesh method says what it cannot do without") {
   const auto refused = [&](const MeshOptions& options, std::string_view part) {
     test::expect_bad_input("mesh", part, [&] { options.check(); });
   };
+  refused({.opening_m = -1}, "an opening of -1 m");
+  refused({.opening_m = std::nan("")}, "an opening of nan m");
   refused({.enlarge = 0.5}, "enlarged 0.5 times; expected 1 to 10");
   refused({.enlarge = std::nan("")}, "expected 1 to 10");
   refused({.image_width = 8}, "images of 8 pixels; expected 16 to 16384");

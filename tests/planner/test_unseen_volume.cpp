@@ -6,6 +6,7 @@
 
 #include "reference/random_scene.hpp"
 #include "reference/random_workcell.hpp"
+#include "scored_space.hpp"
 #include "support/scene_count.hpp"
 #include "vantage/planner/mesh_scorer.hpp"
 #include "vantage/raycore/seen_space.hpp"
@@ -39,7 +40,7 @@ double volume_m3(const MeshScorer& scorer, const PinholeCamera& view) {
 
 /// Pixel by pixel, with the work area's end from the corner of a box that the ray moves towards.
 double plain_volume(const SeenWorld& world, const PinholeCamera& view) {
-  const SeenSpace seen(world.lattices, world.work_area);
+  const auto seen = test::scored_space(world);
   const auto known = known_scene(world.known);
   double sum = 0;
   for (int v = 0; v < view.intrinsics().height; ++v) {
@@ -47,7 +48,7 @@ double plain_volume(const SeenWorld& world, const PinholeCamera& view) {
       const std::array tile{PixelTile{std::uint16_t(u / 4), std::uint16_t(v / 4)}};
       std::array<UnseenHits, 1> unseen;
       std::array<TileHits, 1> object;
-      seen.first_unseen(view, tile, unseen);
+      seen->first_unseen(view, tile, unseen);
       known->first_hits(view, tile, object);
       const int lane = 4 * (v % 4) + u % 4;
       const PixelRay ray = view.pixel_ray(u, v);

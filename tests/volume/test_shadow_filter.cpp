@@ -2,6 +2,7 @@
 #include <tbb/global_control.h>
 #include <tbb/task_arena.h>
 
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -75,6 +76,55 @@ std::shared_ptr<const StateGrid> mixed_grid() {
 }
 
 }  // namespace
+
+TEST_CASE("the shell is the surface of the shadow's voxels and those around them, box or no box") {
+  const auto grid = mixed_grid();
+  const GridGeometry& geometry = grid->geometry();
+  const auto near_shadow = [&](const Eigen::Vector3i& voxel) {
+    for (int i = -1; i <= 1; ++i)
+      for (int j = -1; j <= 1; ++j)
+        for (int k = -1; k <= 1; ++k)
+          if (grid->at(voxel + Eigen::Vector3i(i, j, k)) == VoxelState::shadow) return true;
+    return false;
+  };
+  std::size_t inside = 0;
+  Eigen::Vector3d moment = Eigen::Vector3d::Zero();
+  for (int x = -2; x < 32; ++x)
+    for (int y = -2; y < 29; ++y)
+      for (int z = -2; z < 27; ++z)
+        if (near_shadow({x, y, z})) ++inside, moment += Eigen::Vector3d(x + 0.5, y + 0.5, z + 0.5);
+  REQUIRE(inside > 1000);
+  // By the divergence theorem: outwards, closed, and nothing else, if volume and middle agree.
+  const TriangleMesh shell = shell_around_shadow(*grid);
+  double six_volumes = 0;
+  Eigen::Vector3d its_moment = Eigen::Vector3d::Zero();
+  for (const Triangle& triangle : shell.triangles()) {
+    std::array<Eigen::Vector3d, 3> p;
+    for (std::size_t i = 0; i < 3; ++i) {
+      p[i] = (shell.vertices()[triangle[i]].cast<double>() - geometry.origin()) /
+             geometry.voxel_size_m();
+    }
+    const double part = p[0].dot(p[1].cross(p[2]));
+    six_volumes += part;
+    its_moment += part / 24 * (p[0] + p[1] + p[2]);
+  }
+  CHECK(six_volumes / 6 == doctest::Approx(double(inside)).epsilon(1e-5));
+  CHECK((its_moment - moment).norm() < 1e-5 * moment.norm());
+}
+
+TEST_CASE("an opening's radius is the largest whose cubes are no larger than the edge") {
+  const auto grid = mixed_grid();
+  const double voxel_m = grid->geometry().voxel_size_m();
+  CHECK(opening_radius(*grid, 0) == 0);
+  CHECK(opening_radius(*grid, 2.9 * voxel_m) == 0);
+  CHECK(opening_radius(*grid, 3 * voxel_m) == 1);
+  CHECK(opening_radius(*grid, 4.9 * voxel_m) == 1);
+  CHECK(opening_radius(*grid, 5 * voxel_m) == 2);
+  for (const double edge_m : {-0.1, std::nan(""), std::numeric_limits<double>::infinity()}) {
+    test::expect_bad_input("edge_m", "expected a finite length",
+                           [&] { (void)opening_radius(*grid, edge_m); });
+  }
+}
 
 TEST_CASE("opened shadow is what cubes of shadow fit around") {
   const auto grid = mixed_grid();

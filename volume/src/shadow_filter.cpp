@@ -7,12 +7,14 @@
 #include <openvdb/tools/Morphology.h>
 #include <openvdb/tools/Prune.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "mask_blocks.hpp"
 #include "state_grid_impl.hpp"
 #include "vantage/raycore/error.hpp"
 #include "vantage/volume/shadow_regions.hpp"
+#include "voxel_faces.hpp"
 
 namespace vantage {
 namespace {
@@ -64,6 +66,22 @@ std::shared_ptr<const StateGrid> opened_shadow(const StateGrid& grid, int radius
                               tools::IGNORE_TILES);
   }
   return with_shadow(grid, opened);
+}
+
+int opening_radius(const StateGrid& grid, double edge_m) {
+  if (!std::isfinite(edge_m) || edge_m < 0) {
+    throw bad_input("edge_m", fmt::format("is {}; expected a finite length, 0 or above", edge_m));
+  }
+  // 2 radius + 1 voxels fit into the edge; a millionth for its division by the voxels' size.
+  const double voxels = edge_m / grid.geometry().voxel_size_m() * (1 + 1e-6);
+  return std::max(0, int(std::floor(0.5 * (voxels - 1))));
+}
+
+TriangleMesh shell_around_shadow(const StateGrid& grid) {
+  MaskTree around = grid.impl().shadow;
+  around.voxelizeActiveTiles();
+  tools::dilateActiveValues(around, 1, tools::NN_FACE_EDGE_VERTEX, tools::IGNORE_TILES);
+  return detail::voxel_faces(around, grid.geometry());
 }
 
 std::shared_ptr<const StateGrid> large_shadow(const StateGrid& grid, double least_m3) {

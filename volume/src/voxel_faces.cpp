@@ -92,22 +92,22 @@ std::vector<PlaneRectangles> merged(const std::vector<FacePatch>& patches) {
   return result;
 }
 
-/// Corners of voxels as single numbers.
+/// Corners of the grid's voxels, and of those next to it, as single numbers.
 class CornerNumbers {
  public:
   explicit CornerNumbers(const GridGeometry& geometry)
-      : ny_(std::uint64_t(geometry.size().y()) + 1), nz_(std::uint64_t(geometry.size().z()) + 1) {}
+      : ny_(std::uint64_t(geometry.size().y()) + 3), nz_(std::uint64_t(geometry.size().z()) + 3) {}
 
   std::uint64_t number(const FacePlane& plane, int row, int column) const {
     Eigen::Vector3i corner;
     corner[plane.axis] = plane.position;
     corner[(plane.axis + 1) % 3] = row;
     corner[(plane.axis + 2) % 3] = column;
-    return (std::uint64_t(corner.x()) * ny_ + std::uint64_t(corner.y())) * nz_ +
-           std::uint64_t(corner.z());
+    return (std::uint64_t(corner.x() + 1) * ny_ + std::uint64_t(corner.y() + 1)) * nz_ +
+           std::uint64_t(corner.z() + 1);
   }
   Eigen::Vector3i corner(std::uint64_t number) const {
-    return {int(number / nz_ / ny_), int(number / nz_ % ny_), int(number % nz_)};
+    return {int(number / nz_ / ny_) - 1, int(number / nz_ % ny_) - 1, int(number % nz_) - 1};
   }
 
  private:

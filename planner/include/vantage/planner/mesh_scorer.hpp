@@ -10,6 +10,7 @@
 #include "vantage/raycore/box.hpp"
 #include "vantage/raycore/depth_lattice.hpp"
 #include "vantage/raycore/world_model.hpp"
+#include "vantage/volume/state_grid.hpp"
 #include "vantage/volume/visibility.hpp"
 
 namespace vantage {
@@ -24,6 +25,9 @@ enum class MeshWeight {
 /// How the mesh method looks at the world.
 struct MeshOptions {
   VisibilityOptions visibility = {};
+  /// What is unseen, but a cube of this edge does not fit in, is false shadow that noise made, and
+  /// counts as seen; metres. 0: all that is unseen counts.
+  double opening_m = 0.025;
   double enlarge =
       1.2;  ///< known objects, about their middle, for what is imprecise (thesis 7.4.4)
   MeshWeight weight = MeshWeight::depth;
@@ -36,8 +40,9 @@ struct MeshOptions {
   int shortlist = 100;
   double shortlist_voxel_m = 0.0047;
 
-  /// @throws Error bad_input unless 1 <= enlarge <= 10, 16 <= image_width <= 16384, 0 <=
-  /// exact_views, 1 <= shortlist and 0 < shortlist_voxel_m, and as `VisibilityOptions::check` does.
+  /// @throws Error bad_input unless opening_m is finite and not negative, 1 <= enlarge <= 10, 16 <=
+  /// image_width <= 16384, 0 <= exact_views, 1 <= shortlist and 0 < shortlist_voxel_m, and as
+  /// `VisibilityOptions::check` does.
   VANTAGE_API void check() const;
 };
 
@@ -47,6 +52,8 @@ struct SeenWorld {
   std::vector<DepthLattice>
       lattices;      ///< what the cameras saw through; none of those that saw none
   WorldModel known;  ///< known objects, enlarged, and static structures as they are; no cameras
+  /// What is unseen without the false shadow, in voxels; null if it was not filtered.
+  std::shared_ptr<const StateGrid> opened = {};
 };
 
 /// @throws Error bad_input if no camera has a depth image, or an object has no mesh, and as

@@ -11,6 +11,7 @@
 #include "vantage/raycore/camera.hpp"
 #include "vantage/raycore/depth_lattice.hpp"
 #include "vantage/raycore/scene.hpp"
+#include "vantage/raycore/triangle_mesh.hpp"
 
 namespace vantage {
 
@@ -24,14 +25,15 @@ struct UnseenHits {
   /// (thesis 7.4.3): 1 where that camera looked straight at it, 0 along its lines of sight, at the
   /// borders of its image and on the box's faces.
   alignas(64) float facing[PixelTile::kPixels];
-  /// The lattice whose surface it is; kNoSource on a face of the box, and inside (t = 0).
+  /// The lattice whose surface it is; kNoSource on a face of the box or of the shell, and inside
+  /// (t = 0).
   alignas(64) std::uint32_t source[PixelTile::kPixels];
 };
 
 /// A box less the volumes of depth lattices, as rays see it: "solid or shadow" (thesis 7.4.3)
 /// without a boolean operation. A ray walks from volume to volume, and what it meets first is where
 /// it leaves the last one, or the box's face where no volume is. It may start anywhere: inside or
-/// outside of the box and of any volume.
+/// outside of the box and of any volume. What is outside of a shell can be ruled out.
 ///
 /// Each lattice is an Embree scene of its own, in its camera's projective space: pixels and inverse
 /// depth, where lines stay lines and planes planes. Its cells are a field of heights there, as
@@ -41,8 +43,12 @@ struct UnseenHits {
 class VANTAGE_API SeenSpace {
  public:
   /// Builds in the caller's task arena.
+  /// @param shell a closed mesh in the world that looks outwards: nothing outside of it counts as
+  /// unseen, so that rays begin the unseen where they enter the shell, with facing 0 as on the
+  /// box's faces. Null if all of the box counts. It is not referred to later.
   /// @throws Error bad_input as `DepthLattice::check` does, and for a box or lattice beyond 1e9 m.
-  SeenSpace(std::span<const DepthLattice> lattices, const Box& box);
+  SeenSpace(std::span<const DepthLattice> lattices, const Box& box,
+            const TriangleMesh* shell = nullptr);
   ~SeenSpace();
   SeenSpace(const SeenSpace&) = delete;
   SeenSpace& operator=(const SeenSpace&) = delete;
