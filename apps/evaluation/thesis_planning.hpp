@@ -23,7 +23,7 @@ struct ThesisPick {
 };
 std::span<const ThesisPick> thesis_picks();
 
-/// Null if the thesis has no such figures.
+/// Null if the thesis has no such figures. Those of its mesh method are "mesh"'s and "meshD6"'s.
 const ThesisPick* thesis_pick(std::string_view scene, std::string_view method);
 
 /// "Averaged results" of tables 9.5 and 9.6.

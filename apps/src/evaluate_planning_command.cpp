@@ -28,7 +28,8 @@ constexpr int kPictureWidth = 960;
 struct PlanningArguments {
   std::vector<std::string> scenes;
   fs::path folder;
-  std::vector<std::string> methods{"voxel", "shadowD0", "shadowD3", "shadowD6", "mesh", "light"};
+  std::vector<std::string> methods{"voxel", "shadowD0", "shadowD3", "shadowD6",
+                                   "mesh",  "meshD6",   "light"};
   std::vector<std::string> sets{"full", "production"};
   std::string depth = "none", occluders;
   std::uint64_t seed = 0;

@@ -23,7 +23,7 @@ using Json = nlohmann::ordered_json;
 
 struct ReplayArguments {
   PlanOptions plan;
-  std::vector<std::string> methods{"voxel", "mesh", "meshV"};
+  std::vector<std::string> methods{"voxel", "mesh", "meshD6"};
   MeshOptions mesh;
   ReplaySettings settings;
   fs::path folder;
@@ -37,7 +37,7 @@ ReplaySettings settings_of(const ReplayArguments& arguments) {
   for (NamedMethod& method : settings.methods) {
     const MeshWeight named = method.options.mesh.weight;
     method.options.mesh = arguments.mesh;
-    if (named == MeshWeight::volume) method.options.mesh.weight = named;
+    method.options.mesh.weight = named;
   }
   return settings;
 }
@@ -93,10 +93,8 @@ ExitCode evaluate(const ReplayArguments& arguments) {
 
 void add_replay_options(CLI::App& verb, ReplayArguments& arguments) {
   ReplaySettings& settings = arguments.settings;
-  verb.add_option(
-          "--methods", arguments.methods,
-          "Methods, e.g. voxel,mesh,shadowD6; D and a number is the power of the depth, meshV is "
-          "mesh with --mesh-weight volume")
+  verb.add_option("--methods", arguments.methods,
+                  "Methods, e.g. voxel,mesh,shadowD6; D and a number is the power of the depth")
       ->delimiter(',')
       ->capture_default_str();
   verb.add_option("--pairs", settings.pairs, "So many pairs of frames to plan from")

@@ -1,5 +1,7 @@
 #include "method_options.hpp"
 
+#include <fmt/format.h>
+
 #include <map>
 
 namespace vantage {
@@ -31,14 +33,6 @@ void add_view_count_options(CLI::App& verb, ViewCount& views) {
 void add_mesh_options(CLI::App& verb, MeshOptions& mesh) {
   static const std::map<std::string, DepthHoles> holes{{"fill", DepthHoles::fill},
                                                        {"unknown", DepthHoles::unknown}};
-  static const std::map<std::string, MeshWeight> weights{{"depth", MeshWeight::depth},
-                                                         {"volume", MeshWeight::volume}};
-  verb.add_option("--mesh-weight", mesh.weight,
-                  "Of --method mesh: what unseen pixels count; depth: their depth to the "
-                  "--depth-power; volume: the volume behind them, by which views from different "
-                  "distances compare")
-      ->transform(CLI::CheckedTransformer(weights))
-      ->default_str("depth");
   verb.add_option("--mesh-step", mesh.visibility.step_px,
                   "Of --method mesh: a vertex every so many pixels of the depth images")
       ->check(CLI::Range(1, 64))
@@ -68,20 +62,35 @@ void add_mesh_options(CLI::App& verb, MeshOptions& mesh) {
       ->capture_default_str();
 }
 
+namespace {
+
+void add_weight_options(CLI::App& verb, MethodArguments& arguments) {
+  static const std::map<std::string, MeshWeight> weights{{"depth", MeshWeight::depth},
+                                                         {"volume", MeshWeight::volume}};
+  verb.add_option("--depth-power", arguments.depth_power,
+                  "Of --method shadow and mesh: pixels count depth^P; 0, 3 and 6 are the thesis' "
+                  "D0, D3, D6")
+      ->check(CLI::Range(0.0, 16.0))
+      ->default_str(fmt::format("{:g}", arguments.method.depth_power));
+  verb.add_option("--mesh-weight", arguments.mesh_weight,
+                  "Of --method mesh: what unseen pixels count; volume: the volume behind them, by "
+                  "which views from different distances compare; depth: depth^P, as in the thesis")
+      ->transform(CLI::CheckedTransformer(weights))
+      ->default_str("volume, or depth if there is a --depth-power");
+}
+
+}  // namespace
+
 void MethodArguments::add_to(CLI::App& verb) {
   verb.add_option(
           "--method", method.name,
           "What a view is worth; voxel: the volume that it would reveal; shadow: the shadow "
-          "on its image, weighted by distance; mesh: what no depth image shows, weighted the same "
-          "way; light: unlit surface that it would light, to "
+          "on its image, weighted by distance; mesh: the volume that no depth image shows, "
+          "whatever stands there; light: unlit surface that it would light, to "
           "compare with")
       ->check(CLI::IsMember(method_names()))
       ->capture_default_str();
-  verb.add_option("--depth-power", method.depth_power,
-                  "Of --method shadow and mesh: pixels count depth^P; 0, 3 and 6 are the thesis' "
-                  "D0, D3, D6")
-      ->check(CLI::Range(0.0, 16.0))
-      ->capture_default_str();
+  add_weight_options(verb, *this);
   verb.add_option("--servo", servo_iterations,
                   "Iterations of simulated visual servoing for each candidate; 0: none")
       ->check(CLI::Range(0, 100))
@@ -104,6 +113,9 @@ void MethodArguments::add_to(CLI::App& verb) {
 
 void MethodArguments::apply(PlanRequest& request) const {
   request.method = method;
+  if (depth_power) request.method.depth_power = *depth_power;
+  request.method.mesh.weight =
+      mesh_weight.value_or(depth_power ? MeshWeight::depth : method.mesh.weight);
   request.method.mesh.visibility.noise = request.volume.noise;
   request.servo = {servo_iterations, servo_width};
   request.polish.views = polished_views;

@@ -12,6 +12,8 @@ namespace vantage {
 /// How views are scored, refined and chosen: what the command line says of it.
 struct MethodArguments {
   MethodOptions method;
+  std::optional<double> depth_power;      ///< not given: the default
+  std::optional<MeshWeight> mesh_weight;  ///< not given: by depth if its power is
   int servo_iterations = ServoOptions().iterations;
   int servo_width = ServoOptions().image_width;
   int polished_views = PolishOptions().views;
@@ -26,7 +28,7 @@ struct MethodArguments {
   void apply(PlanRequest& request) const;
 };
 
-/// The options of --method mesh.
+/// The options of --method mesh, but for its weight.
 void add_mesh_options(CLI::App& verb, MeshOptions& mesh);
 
 }  // namespace vantage

@@ -35,18 +35,17 @@ NamedMethod named_method(const std::string& name) {
   if (std::ranges::find(method_names(), name) != method_names().end()) {
     return {name, {.name = name}};
   }
-  if (name == "meshV") return {name, {.name = "mesh", .mesh = {.weight = MeshWeight::volume}}};
   for (const std::string method : {"shadow", "mesh"}) {
     if (!name.starts_with(method + "D")) continue;
     const auto power = power_in(name, method.size() + 1);
-    if (power)
-      return {fmt::format("{}D{}", method, *power), {.name = method, .depth_power = *power}};
+    if (!power) continue;
+    return {fmt::format("{}D{}", method, *power),
+            {.name = method, .depth_power = *power, .mesh = {.weight = MeshWeight::depth}}};
   }
-  throw bad_input(
-      "--methods",
-      fmt::format("found '{}'; expected one of: {}; shadowD or meshD and a number from "
-                  "0 to 16 is that method with that power of the depth, meshV weighs by volume",
-                  name, fmt::join(method_names(), ", ")));
+  throw bad_input("--methods",
+                  fmt::format("found '{}'; expected one of: {}; shadowD or meshD and a number from "
+                              "0 to 16 is that method with that power of the depth",
+                              name, fmt::join(method_names(), ", ")));
 }
 
 std::vector<NamedMethod> named_methods(const std::vector<std::string>& names) {

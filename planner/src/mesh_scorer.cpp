@@ -90,7 +90,7 @@ struct MeshScorer::Impl {
   }
 
   Score sum(const PinholeCamera& view, const MeshPixels& rule, const MeshTiles& tiles) const {
-    return by_volume ? detail::unseen_volume(view, seen.box(), tiles) : rule.sum(tiles);
+    return by_volume ? detail::unseen_volume(view, tiles) : rule.sum(tiles);
   }
 
   /// Traces the tiles that may show the work area, batch by batch; `visit` gets each batch and how

@@ -7,6 +7,10 @@
 namespace vantage::detail {
 namespace {
 
+// What shadow in a carved grid counts for a shortlist of views that are weighed by volume: depth³,
+// as a pixel's volume does that goes on to a given part of its depth.
+constexpr double kVolumePower = 3;
+
 // Voxels along the work area's longest side, where only the middle of what is unseen is of
 // interest.
 constexpr double kCoarse = 40;
@@ -43,8 +47,9 @@ MeshTools mesh_tools(const WorldModel& world, const Box& work_area, const PlanRe
                                                     options.weight);
   tools.middle_of_unseen = middle_of_unseen(seen);
   if (views > std::size_t(options.exact_views)) {
-    tools.cheap =
-        std::make_shared<const ShadowScorer>(shortlist_scene(seen, options), request.range, power);
+    const bool by_volume = options.weight == MeshWeight::volume;
+    tools.cheap = std::make_shared<const ShadowScorer>(
+        shortlist_scene(seen, options), request.range, by_volume ? kVolumePower : power);
   }
   return tools;
 }

@@ -25,6 +25,7 @@ struct Walkers {
   alignas(64) float dir_x[kPacketWidth], dir_y[kPacketWidth], dir_z[kPacketWidth];
   alignas(64) float t[kPacketWidth];       ///< everything up to here is seen
   alignas(64) float t_end[kPacketWidth];   ///< where the box or the range ends
+  alignas(64) float end[kPacketWidth];     ///< where the shell ends, if that is before
   alignas(64) float facing[kPacketWidth];  ///< of the surface at t
   alignas(64) std::uint32_t source[kPacketWidth];
   alignas(64) int walking[kPacketWidth];
@@ -61,6 +62,7 @@ struct Walkers {
   int any = 0;
 #pragma GCC unroll 1
   for (std::size_t i = 0; i < kPacketWidth; ++i) {
+    w.end[i] = w.t_end[i];
     w.walking[i] = -int(w.t[i] + job.step < w.t_end[i]);
     any |= w.walking[i];
   }
@@ -169,24 +171,28 @@ void ask_again(const WalkVolume& volume, QueryContext& context, Walkers& w, cons
     const float outwards =
         hit.Ng_x[i] * ray.dir_x[i] + hit.Ng_y[i] * ray.dir_y[i] + hit.Ng_z[i] * ray.dir_z[i];
     const bool is_hit = hit.geomID[i] != RTC_INVALID_GEOMETRY_ID;
-    const float entry = is_hit ? ray.tfar[i] : w.t_end[i];
-    exits.found[i] = w.walking[i] & -int(!is_hit | (outwards < 0));
-    exits.t[i] = entry < w.t_end[i] ? entry : w.t_end[i];
+    const float its_end = w.t_end[i], border = ray.tfar[i];
+    const float at = is_hit & (border < its_end) ? border : its_end;
+    const int outside = w.walking[i] & -int(!is_hit | (outwards < 0));
+    const float end = w.end[i];
+    exits.found[i] = outside;
+    exits.t[i] = at;
+    w.end[i] = (w.walking[i] & ~outside) != 0 ? at : end;
     exits.facing[i] = 0;
   }
   move_on(UnseenHits::kNoSource, exits, w);
 }
 
 /// After a volume: who goes on?
+/// @param counted how many refusals it is to have been let out of it just now
 /// @returns whether anyone does.
-[[gnu::always_inline]] inline bool count_refusals(const WalkJob& job, const int* exits,
+[[gnu::always_inline]] inline bool count_refusals(const WalkJob& job, const int* exits, int counted,
                                                   Walkers& w) {
   const int all = int(job.volumes.size()) + (job.shell.scene != nullptr ? 1 : 0);
   int any = 0;
 #pragma GCC unroll 1
   for (std::size_t i = 0; i < kPacketWidth; ++i) {
-    // The volume that was left just now need not be asked again: it counts.
-    w.refusals[i] = exits[i] != 0 ? 1 : w.refusals[i] + 1;
+    w.refusals[i] = exits[i] != 0 ? counted : w.refusals[i] + 1;
     w.walking[i] &= -int((w.refusals[i] < all) & (w.t[i] + job.step < w.t_end[i]));
     any |= w.walking[i];
   }
@@ -201,11 +207,13 @@ void ask_again(const WalkVolume& volume, QueryContext& context, Walkers& w, cons
   for (;;) {
     if (has_shell) {
       enter_shell(job, context, w, exits);
-      if (!count_refusals(job, exits.found, w)) return;
+      // It will be asked once more, for where it ends.
+      if (!count_refusals(job, exits.found, 0, w)) return;
     }
     for (const WalkVolume& volume : job.volumes) {
       const bool any = leave(volume, context, w, exits);
-      if (!count_refusals(job, any ? exits.found : kNone, w)) return;
+      // The volume that was left just now need not be asked again: it counts.
+      if (!count_refusals(job, any ? exits.found : kNone, 1, w)) return;
     }
   }
 }
@@ -213,10 +221,11 @@ void ask_again(const WalkVolume& volume, QueryContext& context, Walkers& w, cons
 [[gnu::always_inline]] inline void store(const WalkJob& job, const Walkers& w, UnseenHits& hits) {
 #pragma GCC unroll 1
   for (std::size_t i = 0; i < kPacketWidth; ++i) {
-    const float t = w.t[i], facing = w.facing[i];
+    const float t = w.t[i], facing = w.facing[i], end = w.end[i];
     const std::uint32_t source = w.source[i];
     const bool hit = t + job.step < w.t_end[i];
     hits.t[i] = hit ? t : std::numeric_limits<float>::infinity();
+    hits.end[i] = hit ? end : std::numeric_limits<float>::infinity();
     hits.facing[i] = hit ? facing : 0;
     hits.source[i] = hit ? source : UnseenHits::kNoSource;
   }

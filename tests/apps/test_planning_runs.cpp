@@ -62,16 +62,15 @@ TEST_CASE("methods by their names, with the power of the depth in it") {
   CHECK(named_method("mesh").name == "mesh");
   CHECK(named_method("meshD2").options.name == "mesh");
   CHECK(named_method("meshD2").options.depth_power == 2);
-  CHECK(named_method("meshV").options.mesh.weight == MeshWeight::volume);
-  CHECK(named_method("mesh").options.mesh.weight == MeshWeight::depth);
+  CHECK(named_method("meshD2").options.mesh.weight == MeshWeight::depth);
+  CHECK(named_method("mesh").options.mesh.weight == MeshWeight::volume);
   for (const char* name :
        {"", "shadowD", "shadowDx", "shadowD17", "shadowD-1", "meshD", "lightD3", "Voxel"}) {
     CAPTURE(name);
     CHECK_THROWS_WITH_AS(named_method(name),
                          (std::string("--methods: found '") + name +
                           "'; expected one of: voxel, shadow, mesh, light; shadowD or meshD and a "
-                          "number from 0 to 16 is that method with that power of the depth, meshV "
-                          "weighs by volume")
+                          "number from 0 to 16 is that method with that power of the depth")
                              .c_str(),
                          Error);
   }

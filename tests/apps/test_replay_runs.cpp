@@ -123,7 +123,7 @@ TEST_CASE("real gain: the voxels that are known with the frame's depth image, co
 
 TEST_CASE("a method picks what a plan picks that has the frames' poses as its only candidates") {
   const PlanInput input = all_around();
-  const ReplaySettings settings = settings_for({"voxel", "shadowD6", "shadowD0", "mesh", "meshV"});
+  const ReplaySettings settings = settings_for({"voxel", "shadowD6", "shadowD0", "mesh", "meshD6"});
   for (const ReplayPair& pair : evaluate_replay(input, settings).pairs) {
     PlanRequest request = input.request;
     ViewList list;

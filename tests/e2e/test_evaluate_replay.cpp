@@ -33,7 +33,7 @@ TEST_CASE("replay of a real recording: the pick is among the best frames, far ab
   const test::TemporaryFolder folder;
   const auto result =
       run_vantage("evaluate replay" + quoted(*kitchen) + kTable +
-                  " --voxel-size 0.04 --pairs 4 --methods voxel,meshV -o" + quoted(folder / "out"));
+                  " --voxel-size 0.04 --pairs 4 --methods voxel,mesh -o" + quoted(folder / "out"));
   CAPTURE(result.err);
   REQUIRE(result.exit_code == 0);
   CHECK(result.out.find("Means over 4 pairs of frames") != std::string::npos);

@@ -8,10 +8,14 @@
 
 namespace vantage::test {
 
+/// The shell that the mesh method's unseen space is in; an empty mesh if there is none.
+inline TriangleMesh shell_of(const SeenWorld& world) {
+  return world.opened ? shell_around_shadow(*world.opened) : TriangleMesh();
+}
+
 /// The space whose unseen part the mesh method scores.
 inline std::unique_ptr<const SeenSpace> scored_space(const SeenWorld& world) {
-  TriangleMesh shell;
-  if (world.opened) shell = shell_around_shadow(*world.opened);
+  const TriangleMesh shell = shell_of(world);
   return std::make_unique<const SeenSpace>(world.lattices, world.work_area,
                                            world.opened ? &shell : nullptr);
 }

@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "reference/random_scene.hpp"
 #include "reference/random_workcell.hpp"
 #include "scored_space.hpp"
 #include "support/scene_count.hpp"
 #include "vantage/planner/mesh_scorer.hpp"
+#include "vantage/raycore/scene_builder.hpp"
 #include "vantage/raycore/seen_space.hpp"
 #include "vantage/volume/classify.hpp"
 
@@ -38,10 +40,21 @@ double volume_m3(const MeshScorer& scorer, const PinholeCamera& view) {
   return double(result.score) * scorer.unit() / (3 * k.fx * k.fy);
 }
 
+/// Where a ray that is inside the shell at t leaves it.
+double shell_end(const Scene* shell, const PixelRay& ray, double t) {
+  if (shell == nullptr) return std::numeric_limits<double>::infinity();
+  const Ray from{ray.origin.cast<float>(), ray.direction.cast<float>(), float(t + 2e-5)};
+  const auto hit = shell->closest_hit(from);
+  return hit ? double(hit->t) : std::numeric_limits<double>::infinity();
+}
+
 /// Pixel by pixel, with the work area's end from the corner of a box that the ray moves towards.
 double plain_volume(const SeenWorld& world, const PinholeCamera& view) {
   const auto seen = test::scored_space(world);
   const auto known = known_scene(world.known);
+  SceneBuilder builder;
+  builder.add_mesh(test::shell_of(world));
+  const auto shell = world.opened ? builder.build() : nullptr;
   double sum = 0;
   for (int v = 0; v < view.intrinsics().height; ++v) {
     for (int u = 0; u < view.intrinsics().width; ++u) {
@@ -57,6 +70,9 @@ double plain_volume(const SeenWorld& world, const PinholeCamera& view) {
         const Box& area = world.work_area;
         const double wall = ray.direction[axis] > 0 ? area.max()[axis] : area.min()[axis];
         end = std::min(end, (wall - ray.origin[axis]) / ray.direction[axis]);
+      }
+      if (std::isfinite(unseen[0].t[lane])) {
+        end = std::min(end, shell_end(shell.get(), ray, double(unseen[0].t[lane])));
       }
       const double begin = std::max(double(unseen[0].t[lane]), kRange.near_m);
       if (begin >= end) continue;
@@ -123,7 +139,8 @@ TEST_CASE("on random workcells the volume is the sum over pixels, and bounds hol
       const PinholeCamera view =
           view_at(eye, {0, 0, random.uniform(0, 0.2)}, {64, 48, 60, 60, 31.5, 23.5});
       const double plain = plain_volume(world, view);
-      CHECK(std::abs(volume_m3(scorer, view) - plain) < 1e-6 * plain + 1e-9);
+      // A pixel may graze an edge of the shell's.
+      CHECK(std::abs(volume_m3(scorer, view) - plain) < 1e-4 * plain + 1e-9);
       // Looked at with a need that it cannot meet, it is left at a bound below that.
       const Score exact = scorer.score(view).score, needed = exact + exact / 10 + 1000;
       std::array<ScoreBound, 1> result;

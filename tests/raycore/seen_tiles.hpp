@@ -20,7 +20,7 @@ inline std::vector<PixelTile> image_tiles(const Intrinsics& k) {
 struct UnseenPixel {
   int u, v;
   PixelRay ray;
-  double t, facing;
+  double t, end, facing;
   std::uint32_t source;
 
   Eigen::Vector3d at(double t_ray) const { return ray.origin + t_ray * ray.direction; }
@@ -37,7 +37,8 @@ inline std::vector<UnseenPixel> unseen_pixels(const SeenSpace& space, const Pinh
       const int u = PixelTile::kSide * tiles[i].column + lane % PixelTile::kSide;
       const int v = PixelTile::kSide * tiles[i].row + lane / PixelTile::kSide;
       pixels.push_back({u, v, camera.pixel_ray(u, v), double(hits[i].t[lane]),
-                        double(hits[i].facing[lane]), hits[i].source[lane]});
+                        double(hits[i].end[lane]), double(hits[i].facing[lane]),
+                        hits[i].source[lane]});
     }
   }
   return pixels;

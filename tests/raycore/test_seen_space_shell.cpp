@@ -59,7 +59,8 @@ TEST_CASE("within a shell of two boxes, rays meet what they meet first in either
       ++rays;
       hits += std::isfinite(first.t);
       const bool same = both[i].t == first.t || std::abs(both[i].t - first.t) < 2e-5;
-      close_calls += !(same && std::abs(both[i].facing - first.facing) < 1e-3);
+      const bool same_end = both[i].end == first.end || std::abs(both[i].end - first.end) < 2e-5;
+      close_calls += !(same && same_end && std::abs(both[i].facing - first.facing) < 1e-3);
     }
   }
   CHECK(hits > rays / 10);
@@ -80,6 +81,7 @@ TEST_CASE("a shell around the whole box changes nothing, and one around nothing 
                c = unseen_pixels(without, viewer);
     for (std::size_t i = 0; i < a.size(); ++i) {
       CHECK(a[i].t == b[i].t);
+      CHECK(a[i].end == b[i].end);
       CHECK(a[i].facing == b[i].facing);
       CHECK(a[i].source == b[i].source);
       CHECK(std::isinf(c[i].t));

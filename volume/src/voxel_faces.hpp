@@ -8,8 +8,7 @@
 namespace vantage::detail {
 
 /// The faces between the active voxels, in the grid or next to it, and all others, outwards, world
-/// frame; neighbours in a plane
-/// are merged into rectangles, row by row, then rows of equal extent.
+/// frame; neighbours in a plane are merged into rectangles, row by row, then rows of equal extent.
 TriangleMesh voxel_faces(const openvdb::MaskTree& voxels, const GridGeometry& geometry);
 
 }  // namespace vantage::detail

@@ -17,8 +17,8 @@ namespace vantage {
 
 /// What a pixel counts that meets what no camera saw through at depth D.
 enum class MeshWeight {
-  depth,   ///< D^power (thesis 7.4.5): surfaces, the far ones more
-  volume,  ///< the volume behind, up to the work area's end or a known object; the power is not
+  depth,   ///< D^power (thesis 7.4.5, D6): surfaces, the far ones more
+  volume,  ///< the volume behind, to where the shadow ends or a known object is; the power is not
            ///< used
 };
 
@@ -30,7 +30,7 @@ struct MeshOptions {
   double opening_m = 0.025;
   double enlarge =
       1.2;  ///< known objects, about their middle, for what is imprecise (thesis 7.4.4)
-  MeshWeight weight = MeshWeight::depth;
+  MeshWeight weight = MeshWeight::volume;
   int image_width = 160;  ///< of the images that views are scored by; their height follows
 
   /// Up to so many views, servo iterations included, all are scored by rays. Of more, the shadow
@@ -67,8 +67,9 @@ VANTAGE_API SeenWorld seen_world(const WorldModel& world, const Box& work_area,
 /// which hide what is behind them.
 ///
 /// With `MeshWeight::volume` it is (1 - v) · (E³ - D³) instead, E being where the ray leaves the
-/// work area, meets a known object or is at the range's end. That is the volume in the pixel that
-/// may be revealed: views from different distances compare by it.
+/// work area or, to a voxel of its filter, the shadow, meets a known object or is at the range's
+/// end. That is the volume in the pixel that may be revealed: views from different distances
+/// compare by it.
 ///
 /// Views are scored by images of `MeshOptions::image_width`, with the view's own field of view.
 /// Every pixel's (1 - v) (D / far)^power is rounded to a multiple of 2^-35, so that sums are exact.

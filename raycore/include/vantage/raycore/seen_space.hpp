@@ -16,11 +16,14 @@
 namespace vantage {
 
 /// Where the rays of a tile's pixels first meet what no camera saw through. A miss has
-/// t = +infinity, source = kNoSource and facing 0.
+/// t = end = +infinity, source = kNoSource and facing 0.
 struct UnseenHits {
   static constexpr std::uint32_t kNoSource = 0xFFFFFFFFu;
 
   alignas(64) float t[PixelTile::kPixels];  ///< depth along the optical axis, metres
+  /// Depth at which the unseen ends at the latest: at the box's other side, at the shell, or where
+  /// the range ends. What lattices saw before that is not looked for.
+  alignas(64) float end[PixelTile::kPixels];
   /// The cosine between the surface's normal and the direction to the camera that made it, 0 to 1
   /// (thesis 7.4.3): 1 where that camera looked straight at it, 0 along its lines of sight, at the
   /// borders of its image and on the box's faces.
