@@ -5,13 +5,16 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
+#include <iterator>
+#include <optional>
 
 #include "depth_weight.hpp"
 #include "mesh_pixels.hpp"
 #include "small_image.hpp"
 #include "tile_bounds.hpp"
+#include "unseen_cells.hpp"
 #include "unseen_volume.hpp"
-#include "vantage/raycore/box_projector.hpp"
 #include "vantage/raycore/error.hpp"
 #include "vantage/raycore/seen_space.hpp"
 #include "vantage/volume/classify.hpp"
@@ -22,46 +25,35 @@ namespace {
 
 using detail::MeshPixels;
 using detail::MeshTiles;
+using detail::UnseenTiles;
 
 constexpr std::size_t kBatchTiles = 32;  // between two looks at `stop`, and at the bound
 constexpr float kShadowFacing = 0.5f;    // v up to which a surface is shadow to the servo
 
-/// The tiles of an image that may show a box.
-struct TileRange {
-  int first_column = 0, last_column = -1, first_row = 0, last_row = -1;
-  double farthest_m = 0;
-
-  std::size_t columns() const { return std::size_t(last_column - first_column + 1); }
-  std::size_t count() const { return columns() * std::size_t(last_row - first_row + 1); }
-  PixelTile operator[](std::size_t i) const {
-    return {std::uint16_t(std::size_t(first_column) + i % columns()),
-            std::uint16_t(std::size_t(first_row) + i / columns())};
-  }
-};
-
-TileRange tiles_of(const PinholeCamera& view, const Box& box) {
-  const BoxProjector projector(view);
-  const Extent extent{box.centre(), 0.5 * box.size()};
-  const BoxInView shown = projector.project(extent, projector.margin_m(extent));
-  if (shown.coverage == Coverage::none) return {};
-  const auto tile = [](double pixel, int size) {
-    return int(std::clamp(pixel, 0.0, double(size - 1))) / PixelTile::kSide;
-  };
-  const Intrinsics& k = view.intrinsics();
-  return {tile(shown.rect.u0 - 0.5, k.width), tile(shown.rect.u1 + 1.5, k.width),
-          tile(shown.rect.v0 - 0.5, k.height), tile(shown.rect.v1 + 1.5, k.height), shown.z_max};
+/// What may be unseen: nothing is outside of it.
+std::optional<TriangleMesh> shell_of(const SeenWorld& world) {
+  return world.opened ? std::optional(shell_around_shadow(*world.opened)) : std::nullopt;
 }
 
-/// What is unseen, less the false shadow.
-SeenSpace seen_space(const SeenWorld& world) {
-  if (world.opened == nullptr) return {world.lattices, world.work_area};
-  const TriangleMesh shell = shell_around_shadow(*world.opened);
-  return {world.lattices, world.work_area, &shell};
+/// Puts the tiles with a pixel that meets the unseen first.
+/// @returns how many they are.
+std::size_t keep_unseen(std::span<PixelTile> tiles, std::span<UnseenHits> hits) {
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < tiles.size(); ++i) {
+    const bool any = std::any_of(std::begin(hits[i].t), std::end(hits[i].t),
+                                 [](float t) { return std::isfinite(t); });
+    if (!any) continue;
+    tiles[kept] = tiles[i];
+    if (kept != i) hits[kept] = hits[i];
+    ++kept;
+  }
+  return kept;
 }
 
 }  // namespace
 
 struct MeshScorer::Impl {
+  detail::UnseenCells cells;
   SeenSpace seen;
   std::shared_ptr<const Scene> known;
   detail::DepthWeight weight;  ///< of volumes, that of their far end
@@ -93,32 +85,34 @@ struct MeshScorer::Impl {
     return by_volume ? detail::unseen_volume(view, tiles) : rule.sum(tiles);
   }
 
-  /// Traces the tiles that may show the work area, batch by batch; `visit` gets each batch and how
-  /// many tiles are left, and says whether to go on.
+  /// Traces the tiles that may show what is unseen, batch by batch; `visit` gets those of a batch
+  /// that do and how many tiles are left, and says whether to go on.
   template <class Visit>
-  void trace(const PinholeCamera& view, const TileRange& range, const Visit& visit) const {
+  void trace(const PinholeCamera& view, const UnseenTiles& shown, const Visit& visit) const {
     std::array<PixelTile, kBatchTiles> tiles;
     std::array<UnseenHits, kBatchTiles> unseen;
     std::array<TileHits, kBatchTiles> objects;
-    for (std::size_t next = 0; next < range.count();) {
-      const std::size_t count = std::min(kBatchTiles, range.count() - next);
-      for (std::size_t i = 0; i < count; ++i) tiles[i] = range[next++];
-      const MeshTiles batch{{tiles.data(), count}, {unseen.data(), count}, {objects.data(), count}};
-      seen.first_unseen(view, batch.tiles, {unseen.data(), count});
-      known->first_hits(view, batch.tiles, {objects.data(), count});
-      if (!visit(batch, range.count() - next)) return;
+    for (std::size_t next = 0; next < shown.tiles.size();) {
+      const std::size_t count = std::min(kBatchTiles, shown.tiles.size() - next);
+      std::copy_n(shown.tiles.begin() + std::ptrdiff_t(next), count, tiles.begin());
+      next += count;
+      seen.first_unseen(view, {tiles.data(), count}, {unseen.data(), count});
+      const std::size_t kept = keep_unseen({tiles.data(), count}, {unseen.data(), count});
+      const MeshTiles batch{{tiles.data(), kept}, {unseen.data(), kept}, {objects.data(), kept}};
+      known->first_hits(view, batch.tiles, {objects.data(), kept});
+      if (!visit(batch, shown.tiles.size() - next)) return;
     }
   }
 
   ScoreBound score(const PinholeCamera& given, Score needed, const StopToken& stop) const {
     const PinholeCamera view = scored(given);
     const MeshPixels rule = pixels(view);
-    const TileRange range = tiles_of(view, seen.box());
-    const Score most = PixelTile::kPixels * rule.most(range.farthest_m);
-    Score sum = 0, left = range.count() * most;
+    const UnseenTiles shown = cells.tiles(view);
+    const Score most = PixelTile::kPixels * rule.most(shown.farthest_m);
+    Score sum = 0, left = shown.tiles.size() * most;
     bool stopped = false;
     if (left >= needed) {
-      trace(view, range, [&](const MeshTiles& batch, std::size_t tiles_left) {
+      trace(view, shown, [&](const MeshTiles& batch, std::size_t tiles_left) {
         sum += this->sum(view, rule, batch);
         left = tiles_left * most;
         stopped = left > 0 && stop.stop_requested();
@@ -131,11 +125,16 @@ struct MeshScorer::Impl {
 };
 
 MeshScorer::MeshScorer(const SeenWorld& world, const DepthRange& range, double depth_power,
-                       int image_width, MeshWeight weight)
-    : impl_(new Impl{seen_space(world), known_scene(world.known),
-                     detail::DepthWeight(weight == MeshWeight::volume ? 3 : depth_power, range),
-                     weight == MeshWeight::volume, image_width}) {
+                       int image_width, MeshWeight weight) {
   MeshOptions{.image_width = image_width}.check();
+  const std::optional<TriangleMesh> shell = shell_of(world);
+  const bool by_volume = weight == MeshWeight::volume;
+  impl_.reset(new Impl{detail::UnseenCells(world),
+                       {world.lattices, world.work_area, shell ? &*shell : nullptr},
+                       known_scene(world.known),
+                       detail::DepthWeight(by_volume ? 3 : depth_power, range),
+                       by_volume,
+                       image_width});
 }
 
 MeshScorer::~MeshScorer() = default;
@@ -146,8 +145,8 @@ double MeshScorer::unit() const noexcept {
 
 Score MeshScorer::upper_bound(const PinholeCamera& view) const {
   const PinholeCamera image = impl_->scored(view);
-  const TileRange range = tiles_of(image, impl_->seen.box());
-  return range.count() * PixelTile::kPixels * impl_->pixels(image).most(range.farthest_m);
+  const UnseenTiles shown = impl_->cells.tiles(image);
+  return shown.tiles.size() * PixelTile::kPixels * impl_->pixels(image).most(shown.farthest_m);
 }
 
 void MeshScorer::score(std::span<const PinholeCamera> views, std::span<const Score> needed,
@@ -167,7 +166,7 @@ std::vector<ScoreTerm> MeshScorer::terms(const PinholeCamera& given) const {
   const MeshPixels rule = impl_->pixels(view);
   Score sum = 0;
   double pixels = 0, depths_m = 0, facing = 0;
-  impl_->trace(view, tiles_of(view, impl_->seen.box()), [&](const MeshTiles& batch, std::size_t) {
+  impl_->trace(view, impl_->cells.tiles(view), [&](const MeshTiles& batch, std::size_t) {
     sum += impl_->sum(view, rule, batch);
     for (std::size_t i = 0; i < batch.tiles.size(); ++i) {
       for (unsigned shown = rule.shown(batch, i, 1); shown != 0; shown &= shown - 1) {
@@ -198,7 +197,7 @@ ShadowSight MeshScorer::look(const PinholeCamera& view) const {
   const MeshPixels rule = impl_->pixels(view);
   ShadowBounds bounds{k.width, -1, k.height, -1};
   Score sum = 0;
-  impl_->trace(view, tiles_of(view, impl_->seen.box()), [&](const MeshTiles& batch, std::size_t) {
+  impl_->trace(view, impl_->cells.tiles(view), [&](const MeshTiles& batch, std::size_t) {
     sum += impl_->sum(view, rule, batch);
     for (std::size_t i = 0; i < batch.tiles.size(); ++i) {
       const unsigned shown = rule.shown(batch, i, kShadowFacing);

@@ -45,9 +45,12 @@ Pose aimed(const Eigen::Vector3d& eye, const Eigen::Vector3d& direction, const I
   return Pose::from_rotation(axis.rotation() * turn.toRotationMatrix(), eye);
 }
 
-bool same(const Pose& a, const Pose& b) {
+/// Whether the camera does not move, and turns by less than half a pixel, to which bounds are
+/// known.
+bool stays(const Pose& a, const Pose& b, const Intrinsics& k) {
+  const double half_pixel = 0.5 / std::max(k.fx, k.fy);
   return (a.translation() - b.translation()).norm() < 1e-9 &&
-         (a.rotation() - b.rotation()).norm() < 1e-9;
+         Eigen::AngleAxisd(a.rotation().transpose() * b.rotation()).angle() < half_pixel;
 }
 
 }  // namespace
@@ -95,7 +98,7 @@ std::vector<ServoStep> ServoRefiner::path(const Pose& T_world_cam) const {
     steps.back().score = sight.score;
     if (!sight.bounds) break;
     const std::optional<ServoStep> next = step(camera, *sight.bounds);
-    if (!next || same(next->T_world_cam, steps.back().T_world_cam)) break;
+    if (!next || stays(next->T_world_cam, steps.back().T_world_cam, camera.intrinsics())) break;
     steps.push_back(*next);
   }
   return steps;

@@ -35,6 +35,11 @@ std::vector<float> lines(int pixels, int step) {
   return result;
 }
 
+/// One of the four cameras.
+PinholeCamera measuring(int i) {
+  return eye_at(0.3 + i * std::numbers::pi / 2, 0.8, 0.7 + 0.05 * i, 1);
+}
+
 /// About normal, with standard deviation 1.
 double noise(test::Random& random) {
   double sum = 0;
@@ -48,12 +53,25 @@ Box seen_box() {
   return {{-0.25, -0.2, 0}, {0.25, 0.2, 0.2}};
 }
 
+std::vector<PosedDepth> seen_images() {
+  const auto scene = cubes_on_floor();
+  std::vector<PosedDepth> images;
+  for (int i = 0; i < 4; ++i) {
+    const DepthImage ideal = scene->render_depth(measuring(i));
+    test::Random random(std::uint32_t(i) + 1);
+    std::vector<float> depths(ideal.metres().begin(), ideal.metres().end());
+    for (float& z : depths) z += 0.0016f * z * z * float(noise(random));
+    images.emplace_back(measuring(i), std::make_shared<const DepthImage>(kWidth, kHeight, depths));
+  }
+  return images;
+}
+
 std::vector<DepthLattice> seen_lattices(int step) {
   const auto scene = cubes_on_floor();
   std::vector<DepthLattice> lattices;
   for (int i = 0; i < 4; ++i) {
-    const PinholeCamera camera = eye_at(0.3 + i * std::numbers::pi / 2, 0.8, 0.7 + 0.05 * i, 1);
-    const DepthImage depth = scene->render_depth(camera.moved_to(camera.T_world_cam()));
+    const PinholeCamera camera = measuring(i);
+    const DepthImage depth = scene->render_depth(camera);
     DepthLattice lattice{camera, lines(kWidth, step), lines(kHeight, step), {}};
     test::Random random(std::uint32_t(i) + 1);
     for (const float row : lattice.rows) {
