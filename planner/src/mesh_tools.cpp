@@ -1,15 +1,12 @@
 #include "mesh_tools.hpp"
 
 #include "shadow_middle.hpp"
+#include "vantage/planner/voxel_scorer.hpp"
 #include "vantage/volume/carve.hpp"
 #include "vantage/volume/shadow_filter.hpp"
 
 namespace vantage::detail {
 namespace {
-
-// What shadow in a carved grid counts for a shortlist of views that are weighed by volume: depth³,
-// as a pixel's volume does that goes on to a given part of its depth.
-constexpr double kVolumePower = 3;
 
 // Voxels along the work area's longest side, where only the middle of what is unseen is of
 // interest.
@@ -47,9 +44,13 @@ MeshTools mesh_tools(const WorldModel& world, const Box& work_area, const PlanRe
                                                     options.weight);
   tools.middle_of_unseen = middle_of_unseen(seen);
   if (views > std::size_t(options.exact_views)) {
-    const bool by_volume = options.weight == MeshWeight::volume;
-    tools.cheap = std::make_shared<const ShadowScorer>(
-        shortlist_scene(seen, options), request.range, by_volume ? kVolumePower : power);
+    const PlanningScene carved = shortlist_scene(seen, options);
+    const auto shadow = std::make_shared<const ShadowScorer>(carved, request.range, power);
+    tools.cheap = shadow;
+    if (options.weight == MeshWeight::volume) {
+      tools.cheap = std::make_shared<const VoxelScorer>(carved);
+    }
+    tools.cheap_sight = shadow;
   }
   return tools;
 }

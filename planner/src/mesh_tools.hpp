@@ -12,8 +12,9 @@ namespace vantage::detail {
 /// What the mesh method plans with.
 struct MeshTools {
   std::shared_ptr<const MeshScorer> scorer;
-  std::shared_ptr<const ShadowScorer> cheap;  ///< picks the shortlist; null if there is to be none
-  Eigen::Vector3d middle_of_unseen;           ///< which the servo measures distances to
+  std::shared_ptr<const ViewScorer> cheap;  ///< picks the shortlist; null if there is to be none
+  std::shared_ptr<const ShadowView> cheap_sight;  ///< what the servo looks at then
+  Eigen::Vector3d middle_of_unseen;               ///< which the servo measures distances to
 };
 
 /// @param views candidates and their servo iterations; of many, there is to be a shortlist.

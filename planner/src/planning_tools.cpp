@@ -39,7 +39,7 @@ PlanningTools::PlanningTools(const WorldModel& world, const PlanningScene& scene
     tools_.scorer = mesh.scorer;
     cheap_ = mesh.cheap;
     sight = {mesh.scorer, mesh.middle_of_unseen};
-    if (mesh.cheap != nullptr) sight.view = mesh.cheap;
+    if (mesh.cheap != nullptr) sight.view = mesh.cheap_sight;
   } else {
     tools_.scorer = make_view_scorer(request.method, scene, world, request.range);
     sight.centre = scene.middle_of_shadow();
