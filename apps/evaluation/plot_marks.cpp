@@ -9,13 +9,14 @@ namespace {
 
 constexpr double kMark = 4.5;  // half its size
 
-constexpr std::array<PlotStyle, 6> kStyles{{{"#d55e00", "7 4"},
+constexpr std::array<PlotStyle, 7> kStyles{{{"#d55e00", "7 4"},
                                             {"#0072b2", "none"},
                                             {"#009e73", "2 3"},
                                             {"#cc79a7", "9 3 2 3"},
                                             {"#555555", "4 2"},
-                                            {"#b8860b", "1 3"}}};
-constexpr std::array<bool, 6> kFull{false, true, false, true, false, true};
+                                            {"#b8860b", "1 3"},
+                                            {"#1b6d85", "5 2 1 2"}}};
+constexpr std::array<bool, 7> kFull{false, true, false, true, false, true, false};
 
 std::string shape_of(std::size_t series) {
   const double r = kMark;
@@ -30,6 +31,8 @@ std::string shape_of(std::size_t series) {
       return fmt::format("M0 -{0}L{0} 0L0 {0}L-{0} 0Z", r + 1);
     case 4:
       return fmt::format("M-{0} -{0}L{0} {0}M-{0} {0}L{0} -{0}", r);
+    case 6:
+      return fmt::format("M-{0} 0H{0}M0 -{0}V{0}", r + 1);
     default:
       return fmt::format("M0 {0}L{0} -{1}H-{0}Z", r + 1, r);
   }

@@ -19,8 +19,8 @@ enum class MarkFill {
   hollow,
 };
 
-/// Square, disc, triangle, diamond, cross, upturned triangle: told apart without colour. An SVG
-/// element.
+/// Square, disc, triangle, diamond, cross, upturned triangle, plus: told apart without colour. An
+/// SVG element.
 std::string plot_mark(std::size_t series, double x, double y, MarkFill fill = MarkFill::usual);
 
 }  // namespace vantage

@@ -68,15 +68,10 @@ constexpr std::array<ThesisServo, 4> kServos{{
        {4.39e6, 5.97e-4, 0.964}}}},
 }};
 
-/// The thesis' mesh method weighs pixels by D^6; ours by volume, which is what to compare, too.
-std::string_view thesis_name(std::string_view method) {
-  return method == "meshD6" ? "mesh" : method;
-}
-
 template <class Row>
 const Row* row_of(std::span<const Row> rows, std::string_view scene, std::string_view method) {
   const auto row = std::ranges::find_if(
-      rows, [&](const Row& r) { return r.scene == scene && r.method == thesis_name(method); });
+      rows, [&](const Row& r) { return r.scene == scene && r.method == method; });
   return row == rows.end() ? nullptr : &*row;
 }
 
@@ -95,7 +90,7 @@ std::span<const ThesisMean> thesis_means() {
 }
 
 const ThesisMean* thesis_mean(std::string_view method) {
-  const auto mean = std::ranges::find(kMeans, thesis_name(method), &ThesisMean::method);
+  const auto mean = std::ranges::find(kMeans, method, &ThesisMean::method);
   return mean == kMeans.end() ? nullptr : &*mean;
 }
 

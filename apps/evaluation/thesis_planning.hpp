@@ -13,7 +13,7 @@ namespace vantage {
 struct ThesisPick {
   std::string_view scene;   ///< our scene's name
   std::string_view title;   ///< the thesis'
-  std::string_view method;  ///< our method's name
+  std::string_view method;  ///< our method's name; its mesh method weighs by D6, as our meshD6
   double method_score;
   double vox_score_m3;
   double vox_ratio;  ///< 0 to 1
@@ -23,7 +23,7 @@ struct ThesisPick {
 };
 std::span<const ThesisPick> thesis_picks();
 
-/// Null if the thesis has no such figures. Those of its mesh method are "mesh"'s and "meshD6"'s.
+/// Null if the thesis has no such figures.
 const ThesisPick* thesis_pick(std::string_view scene, std::string_view method);
 
 /// "Averaged results" of tables 9.5 and 9.6.
