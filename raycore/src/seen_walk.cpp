@@ -9,79 +9,14 @@
 
 #include "seen_walk.hpp"
 
-#include <cmath>
-#include <limits>
-
 #include "seen_exits.hpp"
+#include "seen_shell.hpp"
+#include "seen_walkers.hpp"
 #include "tile_rays.hpp"
 #include "vantage/raycore/multiversion.hpp"
 
 namespace vantage::detail {
 namespace {
-
-/// Sixteen rays on their way. Of a mask's lanes -1 is true and 0 false.
-struct Walkers {
-  RTCRayHit16 packet{};
-  alignas(64) float dir_x[kPacketWidth], dir_y[kPacketWidth], dir_z[kPacketWidth];
-  alignas(64) float t[kPacketWidth];       ///< everything up to here is seen
-  alignas(64) float t_end[kPacketWidth];   ///< where the box or the range ends
-  alignas(64) float end[kPacketWidth];     ///< where the shell ends, if that is before
-  alignas(64) float facing[kPacketWidth];  ///< of the surface at t
-  alignas(64) std::uint32_t source[kPacketWidth];
-  alignas(64) int walking[kPacketWidth];
-  alignas(64) int refusals[kPacketWidth];  ///< by volumes in a row; all of them end the walk
-};
-
-[[gnu::always_inline]] inline void clip_axis(float low, float high, const float* direction,
-                                             float* entry, float* exit) {
-#pragma GCC unroll 1
-  for (std::size_t i = 0; i < kPacketWidth; ++i) {
-    const float inverse = 1 / direction[i];
-    const float a = low * inverse, b = high * inverse;
-    // Written so that a NaN, of a ray in the plane of a face, leaves the other bound.
-    const float first = a < b ? a : b, last = a > b ? a : b;
-    entry[i] = first > entry[i] ? first : entry[i];
-    exit[i] = last < exit[i] ? last : exit[i];
-  }
-}
-
-/// Puts the walkers where their rays enter the box.
-/// @returns whether any does.
-[[gnu::always_inline]] inline bool start(const WalkJob& job, Walkers& w) {
-#pragma GCC unroll 1
-  for (std::size_t i = 0; i < kPacketWidth; ++i) {
-    w.t[i] = 0;
-    w.t_end[i] = job.t_far;
-    w.facing[i] = 0;
-    w.source[i] = UnseenHits::kNoSource;
-    w.refusals[i] = 0;
-  }
-  clip_axis(job.box_min[0], job.box_max[0], w.dir_x, w.t, w.t_end);
-  clip_axis(job.box_min[1], job.box_max[1], w.dir_y, w.t, w.t_end);
-  clip_axis(job.box_min[2], job.box_max[2], w.dir_z, w.t, w.t_end);
-  int any = 0;
-#pragma GCC unroll 1
-  for (std::size_t i = 0; i < kPacketWidth; ++i) {
-    w.end[i] = w.t_end[i];
-    w.walking[i] = -int(w.t[i] + job.step < w.t_end[i]);
-    any |= w.walking[i];
-  }
-  return any != 0;
-}
-
-/// The walkers that got out of a volume go there.
-[[gnu::always_inline]] inline void move_on(std::uint32_t index, const Exits& exits, Walkers& w) {
-#pragma GCC unroll 1
-  for (std::size_t i = 0; i < kPacketWidth; ++i) {
-    const bool moves = exits.found[i] != 0;
-    const float t = exits.t[i], facing = exits.facing[i];
-    const float old_t = w.t[i], old_facing = w.facing[i];
-    const std::uint32_t source = w.source[i];
-    w.t[i] = moves ? t : old_t;
-    w.facing[i] = moves ? facing : old_facing;
-    w.source[i] = moves ? index : source;
-  }
-}
 
 /// Asks once more for lanes that the probe has inside and Embree has not: with rays turned by a
 /// millionth, because of rays aimed at a shared vertex, as those of a camera that stands where a
@@ -147,42 +82,6 @@ void ask_again(const WalkVolume& volume, QueryContext& context, Walkers& w, cons
   return true;
 }
 
-/// Lets the walkers that are outside of the shell go to where they enter it, or to their ends.
-[[gnu::always_inline]] inline void enter_shell(const WalkJob& job, QueryContext& context,
-                                               Walkers& w, Exits& exits) {
-  RTCRay16& ray = w.packet.ray;
-  RTCHit16& hit = w.packet.hit;
-#pragma GCC unroll 1
-  for (std::size_t i = 0; i < kPacketWidth; ++i) {
-    ray.org_x[i] = job.shell.origin[0];
-    ray.org_y[i] = job.shell.origin[1];
-    ray.org_z[i] = job.shell.origin[2];
-    ray.dir_x[i] = w.dir_x[i], ray.dir_y[i] = w.dir_y[i], ray.dir_z[i] = w.dir_z[i];
-    ray.tnear[i] = w.t[i] + job.step;
-    // Beyond the box, too: what is inside there is inside.
-    ray.tfar[i] = std::numeric_limits<float>::infinity();
-    ray.mask[i] = kAllMasks;
-    hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
-    hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
-  }
-  context.intersect16(w.walking, job.shell.scene, &w.packet);
-#pragma GCC unroll 1
-  for (std::size_t i = 0; i < kPacketWidth; ++i) {
-    const float outwards =
-        hit.Ng_x[i] * ray.dir_x[i] + hit.Ng_y[i] * ray.dir_y[i] + hit.Ng_z[i] * ray.dir_z[i];
-    const bool is_hit = hit.geomID[i] != RTC_INVALID_GEOMETRY_ID;
-    const float its_end = w.t_end[i], border = ray.tfar[i];
-    const float at = is_hit & (border < its_end) ? border : its_end;
-    const int outside = w.walking[i] & -int(!is_hit | (outwards < 0));
-    const float end = w.end[i];
-    exits.found[i] = outside;
-    exits.t[i] = at;
-    w.end[i] = (w.walking[i] & ~outside) != 0 ? at : end;
-    exits.facing[i] = 0;
-  }
-  move_on(UnseenHits::kNoSource, exits, w);
-}
-
 /// After a volume: who goes on?
 /// @param counted how many refusals it is to have been let out of it just now
 /// @returns whether anyone does.
@@ -215,19 +114,6 @@ void ask_again(const WalkVolume& volume, QueryContext& context, Walkers& w, cons
       // The volume that was left just now need not be asked again: it counts.
       if (!count_refusals(job, any ? exits.found : kNone, 1, w)) return;
     }
-  }
-}
-
-[[gnu::always_inline]] inline void store(const WalkJob& job, const Walkers& w, UnseenHits& hits) {
-#pragma GCC unroll 1
-  for (std::size_t i = 0; i < kPacketWidth; ++i) {
-    const float t = w.t[i], facing = w.facing[i], end = w.end[i];
-    const std::uint32_t source = w.source[i];
-    const bool hit = t + job.step < w.t_end[i];
-    hits.t[i] = hit ? t : std::numeric_limits<float>::infinity();
-    hits.end[i] = hit ? end : std::numeric_limits<float>::infinity();
-    hits.facing[i] = hit ? facing : 0;
-    hits.source[i] = hit ? source : UnseenHits::kNoSource;
   }
 }
 

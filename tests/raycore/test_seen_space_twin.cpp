@@ -115,6 +115,7 @@ TEST_CASE("the same from close in front of a lattice's camera") {
   // twentieth of a pixel wide, a hit is a few hundred-thousandths off.
   const Tally tally = compare_views(ViewerPlace::lattice_camera, 2000, 0.03);
   CHECK(tally.wrong <= tally.rays / 5000);
-  CHECK(tally.close_calls <= tally.rays / 100);
+  // One of the first scenes has nearly all of them.
+  CHECK(tally.close_calls <= tally.rays / (kAllScenes ? 100 : 20));
   CHECK(tally.surfaces > enough(10000));
 }
