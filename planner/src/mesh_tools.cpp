@@ -44,11 +44,11 @@ MeshTools mesh_tools(const WorldModel& world, const Box& work_area, const PlanRe
                                                     options.weight);
   tools.middle_of_unseen = middle_of_unseen(seen);
   if (views > std::size_t(options.exact_views)) {
-    const PlanningScene carved = shortlist_scene(seen, options);
-    const auto shadow = std::make_shared<const ShadowScorer>(carved, request.range, power);
+    const PlanningScene scene = shortlist_scene(seen, options);
+    const auto shadow = std::make_shared<const ShadowScorer>(scene, request.range, power);
     tools.cheap = shadow;
     if (options.weight == MeshWeight::volume) {
-      tools.cheap = std::make_shared<const VoxelScorer>(carved);
+      tools.cheap = std::make_shared<const VoxelScorer>(scene);
     }
     tools.cheap_sight = shadow;
   }

@@ -28,6 +28,12 @@ KnownObject enlarged(const KnownObject& object, double factor) {
   return result;
 }
 
+/// Three voxels make the cube's edge: no fewer can be opened with. Work areas may be huge.
+double opening_voxel_m(const Box& work_area, const MeshOptions& options) {
+  constexpr double kMostVoxels = 1 << 24;
+  return std::max(options.opening_m / 3, std::cbrt(work_area.volume_m3() / kMostVoxels));
+}
+
 void expect_depth(const WorldModel& world) {
   const auto with_depth = [](const Observer& camera) { return camera.depth != nullptr; };
   if (std::any_of(world.cameras.begin(), world.cameras.end(), with_depth)) return;
@@ -74,10 +80,8 @@ SeenWorld seen_world(const WorldModel& world, const Box& work_area, const MeshOp
     }
   }
   if (options.opening_m > 0) {
-    // Three voxels of the cube's edge: the smallest number that an opening can be done with.
-    const auto geometry = GridGeometry::covering(work_area, options.opening_m / 3);
-    const auto carved = carve(seen.lattices, geometry, seen.known);
-    seen.opened = opened_shadow(*carved, opening_radius(*carved, options.opening_m));
+    const auto geometry = GridGeometry::covering(work_area, opening_voxel_m(work_area, options));
+    seen.opened = opened_shadow(*carve(seen.lattices, geometry, seen.known), 1);
   }
   return seen;
 }

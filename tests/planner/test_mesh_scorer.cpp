@@ -224,6 +224,17 @@ TEST_CASE("known objects are enlarged about their middle, static structures are 
   CHECK(seen.lattices.size() == 1);
 }
 
+TEST_CASE("noise is filtered out in a hall, too, by larger voxels") {
+  WorldModel world = test::wall_world();
+  world.cameras[0].depth =
+      std::make_shared<const DepthImage>(64, 48, std::vector<float>(std::size_t(64 * 48), 1.5f));
+  const SeenWorld hall = seen_world(world, Box({-40, -40, 0}, {40, 40, 8}));
+  CHECK(hall.opened->geometry().voxel_count() <= 17'000'000);
+  CHECK(hall.opened->count(VoxelState::shadow) > 16'000'000);
+  const SeenWorld bench = seen_world(world, test::random_workcell_area());
+  CHECK(bench.opened->geometry().voxel_size_m() == doctest::Approx(0.025 / 3));
+}
+
 TEST_CASE("the mesh method says what it cannot do without") {
   const WorldModel blind = test::wall_world();
   const Box area = test::random_workcell_area();

@@ -26,16 +26,17 @@ enum class MeshWeight {
 struct MeshOptions {
   VisibilityOptions visibility = {};
   /// What is unseen, but a cube of this edge does not fit in, is false shadow that noise made, and
-  /// counts as seen; metres. 0: all that is unseen counts.
+  /// counts as seen; metres. 0: all that is unseen counts. In work areas of more than 17 million
+  /// voxels of a third of it, the cube is larger.
   double opening_m = 0.025;
-  double enlarge =
-      1.2;  ///< known objects, about their middle, for what is imprecise (thesis 7.4.4)
+  /// Known objects, about their middle, for what is imprecise (thesis 7.4.4).
+  double enlarge = 1.2;
   MeshWeight weight = MeshWeight::volume;
   int image_width = 160;  ///< of the images that views are scored by; their height follows
 
-  /// Up to so many views, servo iterations included, all are scored by rays. Of more, the shadow
-  /// method in a carved grid picks a shortlist, and only that is scored: the best view may be
-  /// missed then.
+  /// Up to so many views, servo iterations included, all are scored by rays. Of more, the voxel
+  /// method in a carved grid (by depth: the shadow method) picks a shortlist, and only that is
+  /// scored: the best view may be missed then.
   int exact_views = 40000;
   int shortlist = 100;
   double shortlist_voxel_m = 0.0047;
