@@ -28,11 +28,13 @@ bool agree(const UnseenPixel& pixel, const PlainUnseen& plain) {
 }
 
 /// Whether a ray that is off by a few millionths, or a gap of a hundred-thousandth, has this
-/// outcome.
+/// outcome. By less, too: a ray at the outer border's vertex is inside on one side only, where the
+/// steep triangle that it ends in may be that thin.
 bool nearly_agree(const UnseenPixel& pixel, const PlainSeenSpace& plain, double t_far) {
+  constexpr double kAngles[] = {1e-7, 1e-6, 1e-5};
   Random random(1);
-  for (int i = 0; i < 60; ++i) {
-    const double angle = i == 0 ? 0 : i % 2 == 0 ? 1e-6 : 1e-5;
+  for (int i = 0; i < 90; ++i) {
+    const double angle = i == 0 ? 0 : kAngles[i % 3];
     const Eigen::Vector3d turned = pixel.ray.direction + angle * random.direction();
     for (const double thinnest : {1e-7, kTolerance}) {
       if (agree(pixel, plain.first_unseen(pixel.ray.origin, turned, t_far, thinnest))) return true;
