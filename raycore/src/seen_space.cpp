@@ -69,6 +69,18 @@ void check_reach(double reach, const std::string& where) {
                                      reach));
 }
 
+/// Cameras that look where the viewer looks first: they see what its rays will meet, so that rays
+/// go as far in their volumes as in any, and the others need only be probed.
+void sort_for(const PinholeCamera& viewer, std::vector<detail::WalkVolume>& volumes) {
+  const Eigen::Vector3f axis = viewer.T_world_cam().rotation().col(2).cast<float>();
+  const auto likeness = [&](const detail::WalkVolume& volume) {
+    const float* optical_axis = volume.probe.m + 6;
+    return axis.dot(Eigen::Map<const Eigen::Vector3f>(optical_axis));
+  };
+  std::stable_sort(volumes.begin(), volumes.end(),
+                   [&](const auto& a, const auto& b) { return likeness(a) > likeness(b); });
+}
+
 std::string name_of(std::size_t lattice) {
   return fmt::format("depth lattice {}", lattice);
 }
@@ -110,6 +122,7 @@ struct SeenSpace::Impl {
            from_apex || !volume.scene.has_walls() ? 0.5f * volume.probe.nearest : 0,
            std::uint32_t(i)});
     }
+    sort_for(camera, job.volumes);
     return job;
   }
 };
