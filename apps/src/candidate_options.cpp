@@ -50,9 +50,10 @@ void CandidateOptions::add_to(CLI::App& verb) {
       ->check(CLI::Range(0, 50));
   verb.add_option("--ring-step", ring_step_rad, "Angle from ring to ring, radians (default: 0.175)")
       ->check(CLI::Range(1e-6, std::numbers::pi));
-  verb.add_option("--clearance", clearance_m,
-                  "Least distance of the camera's body from everything occupied, metres "
-                  "(default: 0)")
+  verb.add_option(
+          "--clearance", clearance_m,
+          "Least distance of the camera's body from the floor and everything occupied, metres "
+          "(default: 0)")
       ->check(CLI::NonNegativeNumber);
 }
 

@@ -143,6 +143,10 @@ double MeshScorer::unit() const noexcept {
   return impl_->weight.unit();
 }
 
+std::string_view MeshScorer::unit_name() const noexcept {
+  return impl_->by_volume ? "m³ · pixels" : "m^power · pixels";
+}
+
 Score MeshScorer::upper_bound(const PinholeCamera& view) const {
   const PinholeCamera image = impl_->scored(view);
   const UnseenTiles shown = impl_->cells.tiles(image);

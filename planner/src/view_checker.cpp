@@ -19,9 +19,20 @@ bool in_cone(const ViewCone& cone, const Eigen::Vector3d& forward) {
   return forward.dot(cone.axis.stableNormalized()) >= std::cos(cone.half_angle_rad) - 1e-12;
 }
 
-/// Whether the camera's body is closer to a surface than the clearance, or has one inside, or is
-/// inside itself.
+/// How high the lowest point of the camera's body is.
+double lowest_m(const ViewConstraints& limits, const Pose& T_world_cam) {
+  if (const BoxBody* body = std::get_if<BoxBody>(&limits.body)) {
+    const double reach_m = T_world_cam.rotation().row(2).cwiseAbs() * (0.5 * body->box.size());
+    return (T_world_cam * body->box.centre()).z() - reach_m;
+  }
+  const SphereBody* sphere = std::get_if<SphereBody>(&limits.body);
+  return T_world_cam.translation().z() - (sphere == nullptr ? 0 : sphere->radius_m);
+}
+
+/// Whether the camera's body is closer to a surface or the floor than the clearance, or has one
+/// inside, or is inside itself.
 bool too_close(const ViewConstraints& limits, const Scene& occupied, const Pose& T_world_cam) {
+  if (lowest_m(limits, T_world_cam) < limits.clearance_m) return true;
   if (const BoxBody* body = std::get_if<BoxBody>(&limits.body)) {
     // The camera's centre is known to be outside of everything; a box beside it may not be.
     return occupied.closer_than(limits.clearance_m, body->box, T_world_cam) ||

@@ -95,6 +95,8 @@ TEST_CASE("where nothing was seen, a view of all of the work area has its volume
   }
   // The thesis' weight likes one and the same box the better the farther away it is.
   const MeshScorer d6(world, kRange, 6, kImage.width);
+  CHECK(scorer.unit_name() == "m³ · pixels");
+  CHECK(d6.unit_name() == "m^power · pixels");
   const auto d6_from = [&](double y) {
     return d6.score(view_at({0, y, 0.5}, kArea.centre())).score;
   };

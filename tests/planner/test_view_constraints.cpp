@@ -146,6 +146,25 @@ TEST_CASE("the camera's body keeps its distance") {
   CHECK(cell.check(beside, eye, level) == Rejection::too_close_to_occupied);
 }
 
+TEST_CASE("the camera's body keeps its distance from the floor, which is no structure") {
+  const Cell cell;
+  const Eigen::Vector3d eye(0.5, 0, 0.1), level(0, 0, 0.1);
+  CHECK(cell.check({.clearance_m = 0.099}, eye) == Rejection::none);
+  CHECK(cell.check({.clearance_m = 0.101}, eye) == Rejection::too_close_to_occupied);
+  CHECK(cell.check({.body = SphereBody{0.099}}, eye) == Rejection::none);
+  CHECK(cell.check({.body = SphereBody{0.101}}, eye) == Rejection::too_close_to_occupied);
+  CHECK(cell.check({.clearance_m = 0.05, .body = SphereBody{0.051}}, eye) ==
+        Rejection::too_close_to_occupied);
+  // The camera's y axis points down, and its z axis to where it looks.
+  const auto box = [](const Box& body) { return ViewConstraints{.body = BoxBody{body}}; };
+  const ViewConstraints short_one = box(Box({-0.2, -0.2, -0.1}, {0.2, 0.099, 0}));
+  CHECK(cell.check(short_one, eye, level) == Rejection::none);
+  CHECK(cell.check(box(Box({-0.2, -0.2, -0.1}, {0.2, 0.101, 0})), eye, level) ==
+        Rejection::too_close_to_occupied);
+  // As it looks upwards, its back sinks.
+  CHECK(cell.check(short_one, eye, {0, 0, 0.5}) == Rejection::too_close_to_occupied);
+}
+
 TEST_CASE("of several reasons the first one counts") {
   const Cell dark(false);
   ViewConstraints limits{

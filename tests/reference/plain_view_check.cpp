@@ -1,7 +1,9 @@
 #include "reference/plain_view_check.hpp"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "reference/plain_nearness.hpp"
 
@@ -71,8 +73,27 @@ ReferenceScene occupied_surfaces(const WorldModel& world, const StateGrid& grid)
   return scene;
 }
 
+/// The height of the body's lowest corner or point.
+double lowest_m(const ViewConstraints& limits, const Pose& pose) {
+  double lowest = pose.translation().z();
+  if (const auto* body = std::get_if<SphereBody>(&limits.body)) lowest -= body->radius_m;
+  if (const auto* body = std::get_if<BoxBody>(&limits.body)) {
+    lowest = std::numeric_limits<double>::infinity();
+    const Vector3d &low = body->box.min(), &high = body->box.max();
+    for (const double x : {low.x(), high.x()}) {
+      for (const double y : {low.y(), high.y()}) {
+        for (const double z : {low.z(), high.z()}) {
+          lowest = std::min(lowest, (pose * Vector3d(x, y, z)).z());
+        }
+      }
+    }
+  }
+  return lowest;
+}
+
 bool body_bumps(const ViewConstraints& limits, const ReferenceScene& occupied, const Pose& pose,
                 Judge& judge) {
+  if (judge.below(lowest_m(limits, pose), limits.clearance_m)) return true;
   if (const auto* body = std::get_if<BoxBody>(&limits.body)) {
     const double distance = nearest_surface(occupied, body->box, pose);
     if (distance == 0 || surrounded(occupied, pose * body->box.centre())) return true;

@@ -85,7 +85,7 @@ class VANTAGE_API MeshScorer final : public ViewScorer, public ShadowView {
 
   std::string_view name() const noexcept override { return "mesh"; }
   double unit() const noexcept override;
-  std::string_view unit_name() const noexcept override { return "m^power · pixels"; }
+  std::string_view unit_name() const noexcept override;
   Score upper_bound(const PinholeCamera& view) const override;
   void score(std::span<const PinholeCamera> views, std::span<const Score> needed,
              std::span<ScoreBound> results, const StopToken& stop = {}) const override;

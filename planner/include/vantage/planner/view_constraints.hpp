@@ -62,7 +62,8 @@ struct ViewConstraints {
   std::optional<Box> reach_box = {};               ///< world frame
   std::shared_ptr<const ReachMap> reach_map = {};  ///< null: none
   std::optional<ViewCone> view_cone = {};
-  double clearance_m = 0;  ///< least distance of the body from all that is occupied
+  /// Least distance of the body from all that is occupied, and from the floor at z = 0.
+  double clearance_m = 0;
   std::variant<std::monostate, SphereBody, BoxBody> body = {};  ///< none: the centre alone
 
   /// @throws Error bad_input as its parts do; for a clearance or a radius that is negative or not
@@ -78,8 +79,9 @@ enum class Rejection : std::uint8_t {
   outside_the_view_cone,
   inside_occupied_volume,
   inside_shadow,
-  too_close_to_shadow,    ///< closer to it than the camera's near depth: it would not be measured
-  too_close_to_occupied,  ///< the body is closer to it than the clearance, or touches it
+  too_close_to_shadow,  ///< closer to it than the camera's near depth: it would not be measured
+  /// The body is closer to it, or to the floor, than the clearance, or touches it.
+  too_close_to_occupied,
 };
 /// In words, e.g. "out of reach".
 VANTAGE_API std::string_view to_text(Rejection reason);
