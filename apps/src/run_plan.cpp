@@ -28,11 +28,12 @@ void make_folder(const fs::path& folder) {
   if (error) throw bad_input(folder.string(), "cannot make this folder: " + error.message());
 }
 
-/// What no depth image shows, known objects or not.
+/// What no depth image shows, known objects or not, as the mesh method filters it.
 TriangleMesh unseen_surface_of(const Plan& plan, const WorldModel& world) {
   const GridGeometry& geometry = plan.grid->geometry();
   const SeenWorld seen = seen_world(world, geometry.box(), plan.request.method.mesh);
-  return unseen_surface(seen.lattices, geometry);
+  return seen.opened ? unseen_surface(seen.lattices, *seen.opened)
+                     : unseen_surface(seen.lattices, geometry);
 }
 
 void write_extras(const Plan& plan, const ShadowRegions& regions, const WorldModel& world,

@@ -13,6 +13,7 @@
 #include "support/scene_count.hpp"
 #include "vantage/volume/carve.hpp"
 #include "vantage/volume/classify.hpp"
+#include "vantage/volume/shadow_filter.hpp"
 #include "vantage/volume/visibility.hpp"
 #include "volume/make_grid.hpp"
 #include "volume/mesh_measures.hpp"
@@ -134,6 +135,17 @@ std::vector<DepthLattice> random_lattices(std::uint32_t seed, double subpixel_px
   return lattices;
 }
 
+/// Whether there is shadow in a voxel, or in one of its 26 neighbours.
+bool near_shadow(const StateGrid& grid, const Eigen::Vector3i& voxel) {
+  for (int n = 0; n < 27; ++n) {
+    const Eigen::Vector3i at = voxel + Eigen::Vector3i(n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1);
+    const bool in_grid =
+        (at.array() >= 0).all() && (at.array() < grid.geometry().size().array()).all();
+    if (in_grid && grid.at(at) == VoxelState::shadow) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 TEST_CASE("without lattices the unseen surface is the box, to the rounding of floats") {
@@ -209,6 +221,38 @@ TEST_CASE("the unseen surface of what cameras saw is closed, near the truth, and
     const GridGeometry geometry = GridGeometry::covering(test::random_workcell_area(), 0.006);
     expect_surface(unseen_surface(lattices, geometry), lattices, geometry,
                    carved_m3(lattices, geometry), 0.05);
+  }
+}
+
+TEST_CASE("of the unseen, the surface has what a filter left") {
+  const GridGeometry geometry = GridGeometry::covering(test::random_workcell_area(), 0.006);
+  for (std::uint32_t seed = 0; seed < test::scene_count(6); ++seed) {
+    CAPTURE(seed);
+    const auto lattices = random_lattices(seed, 0.08);
+    const auto carved = carve(lattices, geometry, {});
+    // A filter that removes nothing changes nothing.
+    const TriangleMesh plain = unseen_surface(lattices, geometry);
+    const TriangleMesh same = unseen_surface(lattices, *opened_shadow(*carved, 0));
+    CHECK(same.vertices() == plain.vertices());
+    CHECK(same.triangles() == plain.triangles());
+
+    const auto opened = opened_shadow(*carved, 2);
+    const TriangleMesh mesh = unseen_surface(lattices, *opened);
+    CHECK(closed(mesh));
+    // Inside are the voxels' centres that carving and the filter leave, and of what carving leaves
+    // those next to them.
+    const auto solid = std::make_shared<const TriangleMesh>(mesh);
+    const auto inside = classify({{{"unseen", solid, {}}}, {}, {}}, geometry);
+    std::size_t differences = 0, left = 0, removed = 0;
+    test::for_each_voxel(geometry, [&](const Eigen::Vector3i& voxel) {
+      const bool counts = carved->at(voxel) == VoxelState::shadow && near_shadow(*opened, voxel);
+      differences += (inside->at(voxel) == VoxelState::occupied) != counts;
+      left += counts;
+      removed += carved->at(voxel) == VoxelState::shadow && !counts;
+    });
+    CHECK(differences == 0);
+    CHECK(left > 0);
+    CHECK(removed > 0);
   }
 }
 

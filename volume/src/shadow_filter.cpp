@@ -11,6 +11,7 @@
 #include <cmath>
 
 #include "mask_blocks.hpp"
+#include "shell_voxels.hpp"
 #include "state_grid_impl.hpp"
 #include "vantage/raycore/error.hpp"
 #include "vantage/volume/shadow_regions.hpp"
@@ -77,11 +78,15 @@ int opening_radius(const StateGrid& grid, double edge_m) {
   return std::max(0, int(std::floor(0.5 * (voxels - 1))));
 }
 
-TriangleMesh shell_around_shadow(const StateGrid& grid) {
+MaskTree detail::shell_voxels(const StateGrid& grid) {
   MaskTree around = grid.impl().shadow;
   around.voxelizeActiveTiles();
   tools::dilateActiveValues(around, 1, tools::NN_FACE_EDGE_VERTEX, tools::IGNORE_TILES);
-  return detail::voxel_faces(around, grid.geometry());
+  return around;
+}
+
+TriangleMesh shell_around_shadow(const StateGrid& grid) {
+  return detail::voxel_faces(detail::shell_voxels(grid), grid.geometry());
 }
 
 std::shared_ptr<const StateGrid> large_shadow(const StateGrid& grid, double least_m3) {

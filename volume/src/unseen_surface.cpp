@@ -1,11 +1,14 @@
 #include "openvdb.hpp"
 
+#include <openvdb/tools/Morphology.h>
 #include <openvdb/tree/LeafManager.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "field_surface.hpp"
 #include "lattice_view.hpp"
+#include "shell_voxels.hpp"
 #include "state_grid_impl.hpp"
 #include "vantage/volume/carve.hpp"
 
@@ -47,28 +50,59 @@ class UnseenField {
   std::vector<LatticeView> views_;
 };
 
+/// Outside of what nothing counts as unseen, and how far outside of it voxels' centres are, in
+/// voxels, near its faces.
+class Shell {
+ public:
+  explicit Shell(openvdb::MaskTree voxels) : voxels_(std::move(voxels)), core_(voxels_) {
+    namespace tools = openvdb::tools;
+    tools::erodeActiveValues(core_, 1, tools::NN_FACE_EDGE_VERTEX, tools::IGNORE_TILES);
+  }
+
+  const openvdb::MaskTree& voxels() const { return voxels_; }
+
+  double outside(const openvdb::Coord& voxel) const {
+    if (core_.isValueOn(voxel)) return -kBand;
+    return voxels_.isValueOn(voxel) ? -0.5 : 0.5;
+  }
+
+ private:
+  openvdb::MaskTree voxels_, core_;  ///< core_: those that all have their 26 neighbours
+};
+
 /// Fills in the band; every voxel stays on the side that carving found.
-void measure(const UnseenField& distances, const openvdb::MaskTree& unseen,
+void measure(const UnseenField& distances, const Shell* shell, const openvdb::MaskTree& unseen,
              openvdb::FloatTree& field) {
   openvdb::tree::LeafManager<openvdb::FloatTree> leaves(field);
   leaves.foreach ([&](openvdb::FloatTree::LeafNodeType& leaf, std::size_t) {
     const BlockWords inside = BlockReader(unseen).words(leaf.origin());
     for (auto voxel = leaf.beginValueOn(); voxel; ++voxel) {
-      const float outside = float(distances.outside(to_voxel(voxel.getCoord())));
-      voxel.setValue(on_side(outside, is_on(inside, voxel.pos()), kLeastMargin));
+      double outside = distances.outside(to_voxel(voxel.getCoord()));
+      if (shell != nullptr) outside = std::max(outside, shell->outside(voxel.getCoord()));
+      voxel.setValue(on_side(float(outside), is_on(inside, voxel.pos()), kLeastMargin));
     }
   });
+}
+
+TriangleMesh surface(std::span<const DepthLattice> lattices, const GridGeometry& geometry,
+                     const Shell* shell) {
+  openvdb::MaskTree unseen = carve(lattices, geometry, {})->impl().shadow;
+  if (shell != nullptr) unseen.topologyIntersection(shell->voxels());
+  const auto field = field_around(unseen, kBand, float(kBand));
+  measure(UnseenField(lattices, geometry), shell, unseen, field->tree());
+  return field_surface(*field, geometry, "unseen surface");
 }
 
 }  // namespace
 }  // namespace detail
 
 TriangleMesh unseen_surface(std::span<const DepthLattice> lattices, const GridGeometry& geometry) {
-  const auto grid = carve(lattices, geometry, {});
-  const openvdb::MaskTree& unseen = grid->impl().shadow;
-  const auto field = detail::field_around(unseen, detail::kBand, float(detail::kBand));
-  detail::measure(detail::UnseenField(lattices, geometry), unseen, field->tree());
-  return detail::field_surface(*field, geometry, "unseen surface");
+  return detail::surface(lattices, geometry, nullptr);
+}
+
+TriangleMesh unseen_surface(std::span<const DepthLattice> lattices, const StateGrid& filtered) {
+  const detail::Shell shell(detail::shell_voxels(filtered));
+  return detail::surface(lattices, filtered.geometry(), &shell);
 }
 
 }  // namespace vantage

@@ -40,4 +40,11 @@ VANTAGE_API std::shared_ptr<const StateGrid> carve(std::span<const DepthLattice>
 VANTAGE_API TriangleMesh unseen_surface(std::span<const DepthLattice> lattices,
                                         const GridGeometry& geometry);
 
+/// The same with what a filter for false shadow left: of the unseen, what is within
+/// `shell_around_shadow(filtered)`, by the voxels of `filtered`. The surface is where rays first
+/// meet what is unseen in a `SeenSpace` with that shell.
+/// @param filtered what `carve` made of these lattices, then filtered.
+VANTAGE_API TriangleMesh unseen_surface(std::span<const DepthLattice> lattices,
+                                        const StateGrid& filtered);
+
 }  // namespace vantage

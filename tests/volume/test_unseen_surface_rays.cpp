@@ -1,0 +1,123 @@
+// The two ways to subtract what was seen from the work area, held together: what rays meet in a
+// SeenSpace, and the exported mesh.
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "reference/noisy_depth.hpp"
+#include "reference/random_workcell.hpp"
+#include "support/scene_count.hpp"
+#include "vantage/raycore/scene_builder.hpp"
+#include "vantage/raycore/seen_space.hpp"
+#include "vantage/volume/carve.hpp"
+#include "vantage/volume/shadow_filter.hpp"
+#include "vantage/volume/visibility.hpp"
+
+namespace vantage {
+namespace {
+
+using test::Random;
+
+constexpr double kVoxel = 0.006;
+
+/// What two cameras saw of a random work cell.
+std::vector<DepthLattice> seen_lattices(std::uint32_t seed, Random& random, bool with_noise) {
+  const auto scene = test::scene_with_foreign_box(test::random_workcell(seed), random);
+  std::vector<DepthLattice> lattices;
+  for (int i = 0; i < 2; ++i) {
+    const PinholeCamera camera = test::random_observer(random);
+    const auto depth = with_noise ? test::noisy_depth(*scene, camera, random)
+                                  : std::make_shared<const DepthImage>(scene->render_depth(camera));
+    if (auto lattice = visibility_lattice({camera, depth}, test::random_workcell_area(), {})) {
+      lattices.push_back(std::move(*lattice));
+    }
+  }
+  return lattices;
+}
+
+/// In pixels; `same_depth` and `near_the_mesh`: to the mesh's resolution, `closely`: well within
+/// it.
+struct Tally {
+  std::size_t rays = 0, hits = 0, same_outcome = 0, same_depth = 0, closely = 0, near_the_mesh = 0;
+};
+
+/// Compares what the pixels of a view meet.
+void compare(const SeenSpace& space, const TriangleMesh& mesh, const PinholeCamera& view,
+             Tally& tally) {
+  SceneBuilder builder;
+  builder.add_mesh(mesh);
+  const auto surface = builder.build();
+  const double resolution = std::sqrt(3.0) * kVoxel;
+  const Intrinsics& k = view.intrinsics();
+  for (int row = 0; row < k.height / PixelTile::kSide; ++row) {
+    for (int column = 0; column < k.width / PixelTile::kSide; ++column) {
+      const PixelTile tile{std::uint16_t(column), std::uint16_t(row)};
+      UnseenHits unseen;
+      TileHits hits;
+      space.first_unseen(view, {&tile, 1}, {&unseen, 1});
+      surface->first_hits(view, {&tile, 1}, {&hits, 1});
+      for (int i = 0; i < PixelTile::kPixels; ++i) {
+        const PixelRay ray = view.pixel_ray(PixelTile::kSide * column + i % PixelTile::kSide,
+                                            PixelTile::kSide * row + i / PixelTile::kSide);
+        const double by_rays = double(unseen.t[i]), by_mesh = double(hits.t[i]);
+        ++tally.rays;
+        tally.same_outcome += std::isfinite(by_rays) == std::isfinite(by_mesh);
+        if (!std::isfinite(by_rays)) continue;
+        ++tally.hits;
+        const double apart_m = std::abs(by_rays - by_mesh) * ray.direction.norm();
+        tally.same_depth += apart_m < resolution;
+        tally.closely += apart_m < 0.3 * kVoxel;
+        const Eigen::Vector3d met = ray.origin + by_rays * ray.direction;
+        tally.near_the_mesh += surface->closer_than(resolution, met);
+      }
+    }
+  }
+}
+
+void expect_agreement(const Tally& tally) {
+  CAPTURE(tally.rays);
+  CAPTURE(tally.hits);
+  CHECK(tally.hits > tally.rays / 20);
+  // Rays along a surface may pass it or not, and slivers thinner than a voxel are not in the mesh.
+  CHECK(double(tally.same_outcome) > 0.97 * double(tally.rays));
+  CHECK(double(tally.near_the_mesh) > 0.99 * double(tally.hits));
+  CHECK(double(tally.same_depth) > 0.9 * double(tally.hits));
+  CHECK(double(tally.closely) > 0.8 * double(tally.hits));
+}
+
+PinholeCamera random_view(Random& random) {
+  const PinholeCamera observer = test::random_observer(random);
+  return {{160, 120, 150, 150, 79.5, 59.5}, observer.T_world_cam(), {0.05, 3}};
+}
+
+}  // namespace
+
+TEST_CASE("rays first meet the unseen where the exported mesh is, within its resolution") {
+  Tally tally;
+  for (std::uint32_t seed = 0; seed < test::scene_count(12); ++seed) {
+    Random random(seed);
+    const std::vector<DepthLattice> lattices = seen_lattices(seed, random, false);
+    const GridGeometry geometry = GridGeometry::covering(test::random_workcell_area(), kVoxel);
+    const TriangleMesh mesh = unseen_surface(lattices, geometry);
+    compare(SeenSpace(lattices, geometry.box()), mesh, random_view(random), tally);
+  }
+  expect_agreement(tally);
+}
+
+TEST_CASE("the same of noisy images with what the filter leaves of the unseen") {
+  Tally tally;
+  for (std::uint32_t seed = 0; seed < test::scene_count(12); ++seed) {
+    Random random(seed);
+    const std::vector<DepthLattice> lattices = seen_lattices(seed, random, true);
+    const GridGeometry geometry = GridGeometry::covering(test::random_workcell_area(), kVoxel);
+    const auto opened = opened_shadow(*carve(lattices, geometry, {}), 1);
+    const TriangleMesh shell = shell_around_shadow(*opened);
+    const SeenSpace space(lattices, geometry.box(), &shell);
+    compare(space, unseen_surface(lattices, *opened), random_view(random), tally);
+  }
+  expect_agreement(tally);
+}
+
+}  // namespace vantage
