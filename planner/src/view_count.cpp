@@ -65,15 +65,19 @@ void ViewCount::run(const StopToken& stop, std::span<ScoreBound> results) {
   for (const View& view : active_) results[view.index] = {ScoreBound::Known::exact, view.bound};
 }
 
-/// Takes a view in if its boxes do not say enough. Most do: what is noted of them is written out
-/// for those only that are taken in.
+/// Takes a view in if its boxes do not say enough. Most do, often the first few that are out of
+/// view: what is noted of them is written out for those only that are taken in.
 void ViewCount::admit(std::size_t index, ScoreBound& result) {
   const ViewFrustum frustum(views_[index], set_.largest_coordinate);
-  Score bound = 0;
+  Score bound = set_.size;
   found_.clear();
-  for_each_in_view(set_, frustum, [&](std::size_t level, std::size_t box, InView in_view) {
-    bound += set_.points_below(level, box);
+  for_each_box(set_, frustum, [&](std::size_t level, std::size_t box, InView in_view) {
+    if (in_view == InView::none) {
+      bound -= set_.points_below(level, box);
+      return bound >= needed_[index];
+    }
     found_.push_back({level, box, in_view});
+    return true;
   });
   if (bound == 0) {
     result = {ScoreBound::Known::exact, 0};

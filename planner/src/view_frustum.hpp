@@ -33,23 +33,28 @@ class ViewFrustum {
   std::array<ViewPlane, 6> planes_;
 };
 
-/// Calls `visit(level, box, in_view)` for boxes that together hold every point that is in view:
-/// of the highest level at which a box is in view as a whole, or of level 0. Others are not named.
+/// Calls `visit(level, box, in_view)` for boxes that together hold all points: of the highest level
+/// at which a box is in view as a whole or not at all, or of level 0. Those out of view are named
+/// before the rest is looked at closer. Ends when `visit` returns false.
+/// @returns whether it came to the end.
 template <class Visit>
-void for_each_in_view(const PointPackets& set, const ViewFrustum& frustum, const Visit& visit) {
-  const auto descend = [&](const auto& self, std::size_t level, std::size_t first) -> void {
+bool for_each_box(const PointPackets& set, const ViewFrustum& frustum, const Visit& visit) {
+  const auto descend = [&](const auto& self, std::size_t level, std::size_t first) -> bool {
     const auto in_view = frustum.test(set.levels[level], first);
     const std::size_t count = std::min(kBlocksPerParent, set.levels[level].size - first);
     for (std::size_t i = 0; i < count; ++i) {
-      if (in_view[i] == InView::none) continue;
-      if (in_view[i] == InView::all || level == 0) {
-        visit(level, first + i, in_view[i]);
-      } else {
-        self(self, level - 1, (first + i) * kBlocksPerParent);
-      }
+      if (in_view[i] == InView::none && !visit(level, first + i, InView::none)) return false;
     }
+    for (std::size_t i = 0; i < count; ++i) {
+      if (in_view[i] == InView::none) continue;
+      const bool closer = in_view[i] == InView::some && level > 0;
+      const bool go_on = closer ? self(self, level - 1, (first + i) * kBlocksPerParent)
+                                : visit(level, first + i, in_view[i]);
+      if (!go_on) return false;
+    }
+    return true;
   };
-  if (set.size > 0) descend(descend, set.levels.size() - 1, 0);
+  return set.size == 0 || descend(descend, set.levels.size() - 1, 0);
 }
 
 }  // namespace vantage::detail

@@ -59,8 +59,9 @@ Score VisiblePoints::upper_bound(const PinholeCamera& view) const {
   const detail::PointPackets& set = impl_->set;
   const detail::ViewFrustum frustum(view, set.largest_coordinate);
   Score bound = 0;
-  detail::for_each_in_view(set, frustum, [&](std::size_t level, std::size_t box, detail::InView) {
-    bound += set.points_below(level, box);
+  detail::for_each_box(set, frustum, [&](std::size_t level, std::size_t box, detail::InView in) {
+    if (in != detail::InView::none) bound += set.points_below(level, box);
+    return true;
   });
   return bound;
 }
