@@ -36,9 +36,8 @@ class ViewFrustum {
 /// Calls `visit(level, box, in_view)` for boxes that together hold all points: of the highest level
 /// at which a box is in view as a whole or not at all, or of level 0. Those out of view are named
 /// before the rest is looked at closer. Ends when `visit` returns false.
-/// @returns whether it came to the end.
 template <class Visit>
-bool for_each_box(const PointPackets& set, const ViewFrustum& frustum, const Visit& visit) {
+void for_each_box(const PointPackets& set, const ViewFrustum& frustum, const Visit& visit) {
   const auto descend = [&](const auto& self, std::size_t level, std::size_t first) -> bool {
     const auto in_view = frustum.test(set.levels[level], first);
     const std::size_t count = std::min(kBlocksPerParent, set.levels[level].size - first);
@@ -54,7 +53,7 @@ bool for_each_box(const PointPackets& set, const ViewFrustum& frustum, const Vis
     }
     return true;
   };
-  return set.size == 0 || descend(descend, set.levels.size() - 1, 0);
+  if (set.size > 0) descend(descend, set.levels.size() - 1, 0);
 }
 
 }  // namespace vantage::detail
