@@ -3,86 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "row_spans.hpp"
 #include "vantage/raycore/multiversion.hpp"
 
 namespace vantage::detail {
 namespace {
 
 constexpr int kRows = CoverBlock::kRows, kColumns = CoverBlock::kColumns;
-
-/// One element for each row of a block: a vector register, or a few.
-template <class T>
-struct alignas(64) Lanes {
-  T at[kRows];
-};
-
-/// A loop over the rows of a block. Unless told not to, the compiler unrolls it before it comes to
-/// vectorise it.
-#define VANTAGE_EACH_ROW(i) _Pragma("GCC unroll 1") for (int i = 0; i < kRows; ++i)
-
-/// Pixels begin ≤ u < end of each row.
-struct RowSpans {
-  Lanes<std::int32_t> begin, end;
-};
-
-/// The columns between a polygon's edges, rounded to the pixels within.
-template <float PolygonEdge::*kOffset>
-[[gnu::always_inline]] inline void find_spans(const FacePolygon& p, PixelSpan rows, int first_row,
-                                              RowSpans& spans) {
-  Lanes<float> low, high;
-  VANTAGE_EACH_ROW(i) {
-    low.at[i] = float(p.columns.first);
-    high.at[i] = float(p.columns.last);
-  }
-  for (int e = 0; e < p.left_edges; ++e) {
-    const float slope = p.left[e].slope, offset = p.left[e].*kOffset;
-    VANTAGE_EACH_ROW(i) {
-      const float u = slope * float(first_row + i) + offset;
-      low.at[i] = u > low.at[i] ? u : low.at[i];
-    }
-  }
-  for (int e = 0; e < p.right_edges; ++e) {
-    const float slope = p.right[e].slope, offset = p.right[e].*kOffset;
-    VANTAGE_EACH_ROW(i) {
-      const float u = slope * float(first_row + i) + offset;
-      high.at[i] = u < high.at[i] ? u : high.at[i];
-    }
-  }
-  const float beyond = float(p.columns.last + 1);
-  VANTAGE_EACH_ROW(i) {
-    low.at[i] = low.at[i] < beyond ? low.at[i] : beyond;
-    high.at[i] = high.at[i] > -1.0f ? high.at[i] : -1.0f;
-  }
-  VANTAGE_EACH_ROW(i) {
-    const float l = low.at[i], h = high.at[i];
-    const std::int32_t whole_l = std::int32_t(l), whole_h = std::int32_t(h);
-    const std::int32_t in_rows = (first_row + i >= rows.first) & (first_row + i <= rows.last);
-    spans.begin.at[i] = whole_l + std::int32_t(float(whole_l) < l);
-    spans.end.at[i] = (whole_h + 1 - std::int32_t(float(whole_h) > h)) * in_rows;
-  }
-}
-
-[[gnu::always_inline]] inline std::int32_t within_block(std::int32_t column, std::int32_t first) {
-  const std::int32_t c = column - first;
-  const std::int32_t positive = c > 0 ? c : 0;
-  return positive < kColumns ? positive : kColumns;
-}
-
-/// The bits begin … end - 1, for numbers from 0 to 32.
-[[gnu::always_inline]] inline std::uint32_t span_bits(std::int32_t begin, std::int32_t end) {
-  const std::uint32_t up_to_end = 0xFFFFFFFFu >> ((kColumns - end) & 31);
-  const std::uint32_t from_begin = 0xFFFFFFFFu << (begin & 31);
-  return up_to_end & from_begin & (0u - std::uint32_t(begin < end));
-}
-
-/// std::popcount, in a form that is vectorised everywhere.
-[[gnu::always_inline]] inline float bit_count(std::uint32_t x) {
-  x -= (x >> 1) & 0x55555555u;
-  x = (x & 0x33333333u) + ((x >> 2) & 0x33333333u);
-  x = (x + (x >> 4)) & 0x0F0F0F0Fu;
-  x += x >> 8;
-  return float(std::int32_t((x + (x >> 16)) & 63u));
-}
 
 /// What is the same for all blocks of a polygon.
 struct Drawing {
@@ -104,13 +31,13 @@ struct Drawing {
 
 /// What a face's pixels count at a column where blocks meet.
 struct Node {
-  Lanes<float> weight;
-  Lanes<std::int32_t> trusted;
+  RowLanes<float> weight;
+  RowLanes<std::int32_t> trusted;
 };
 
 [[gnu::always_inline]] inline void find_node(const Drawing& d, int row, int column, Node& node) {
   const float at_column = d.polygon.at_origin + d.polygon.per_u * float(column);
-  Lanes<float> part;
+  RowLanes<float> part;
   VANTAGE_EACH_ROW(i) {
     const float inverse = at_column + d.polygon.per_v * float(row + i);
     node.trusted.at[i] = inverse > d.least;
@@ -129,19 +56,19 @@ struct Node {
                                               const RowSpans& inner, const Node& left,
                                               const Node& right, int first_column,
                                               CoverBlock& block) {
-  Lanes<std::int32_t> begin, end, may_begin, may_end;
+  RowLanes<std::int32_t> begin, end, may_begin, may_end;
   VANTAGE_EACH_ROW(i) {
     begin.at[i] = within_block(inner.begin.at[i], first_column);
     end.at[i] = within_block(inner.end.at[i], first_column);
     may_begin.at[i] = within_block(outer.begin.at[i], first_column);
     may_end.at[i] = within_block(outer.end.at[i], first_column);
   }
-  Lanes<std::uint32_t> must, may;
+  RowLanes<std::uint32_t> must, may;
   VANTAGE_EACH_ROW(i) {
     must.at[i] = span_bits(begin.at[i], end.at[i]);
     may.at[i] = span_bits(may_begin.at[i], may_end.at[i]);
   }
-  Lanes<float> fresh_count, unsure_count, some;
+  RowLanes<float> fresh_count, unsure_count, some;
   VANTAGE_EACH_ROW(i) {
     const std::uint32_t before = block.certain[i], fresh = must.at[i] & ~before;
     fresh_count.at[i] = bit_count(fresh);
@@ -203,7 +130,7 @@ template <float PolygonEdge::*kOffset, auto kMask>
                                              int origin_group, int chunks, CoverBlock* blocks) {
   const Reach reach(p);
   RowSpans spans;
-  Lanes<std::int32_t> begin, end;
+  RowLanes<std::int32_t> begin, end;
   for (int group = reach.first_group; group <= reach.last_group; ++group) {
     find_spans<kOffset>(p, rows, group * kRows, spans);
     const int block_row = (group - origin_group) * chunks - origin_chunk;
