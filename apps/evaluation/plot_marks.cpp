@@ -3,11 +3,13 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <numbers>
 
 namespace vantage {
 namespace {
 
 constexpr double kMark = 4.5;  // half its size
+constexpr double kArm = 2;     // half the width of a cross' arms, which have to have an inside
 
 constexpr std::array<PlotStyle, 7> kStyles{{{"#d55e00", "7 4"},
                                             {"#0072b2", "none"},
@@ -29,10 +31,16 @@ std::string shape_of(std::size_t series) {
       return fmt::format("M0 -{0}L{0} {1}H-{0}Z", r + 1, r);
     case 3:
       return fmt::format("M0 -{0}L{0} 0L0 {0}L-{0} 0Z", r + 1);
-    case 4:
-      return fmt::format("M-{0} -{0}L{0} {0}M-{0} {0}L{0} -{0}", r);
+    case 4: {
+      const double notch = kArm * std::numbers::sqrt2, tip = r + 1;
+      return fmt::format(
+          "M0 -{0:.2f}L{1:.2f} -{2}L{2} -{1:.2f}L{0:.2f} 0L{2} {1:.2f}L{1:.2f} {2}L0 {0:.2f}"
+          "L-{1:.2f} {2}L-{2} {1:.2f}L-{0:.2f} 0L-{2} -{1:.2f}L-{1:.2f} -{2}Z",
+          notch, tip - notch, tip);
+    }
     case 6:
-      return fmt::format("M-{0} 0H{0}M0 -{0}V{0}", r + 1);
+      return fmt::format("M-{1} -{0}H{1}V-{1}H{0}V{1}H{1}V{0}H-{1}V{1}H-{0}V-{1}H-{1}Z", r + 1.5,
+                         kArm);
     default:
       return fmt::format("M0 {0}L{0} -{1}H-{0}Z", r + 1, r);
   }
