@@ -76,14 +76,14 @@ void compare(const SeenSpace& space, const TriangleMesh& mesh, const PinholeCame
   }
 }
 
-void expect_agreement(const Tally& tally) {
+void expect_agreement(const Tally& tally, double same_outcome, double same_depth) {
   CAPTURE(tally.rays);
   CAPTURE(tally.hits);
   CHECK(tally.hits > tally.rays / 20);
   // Rays along a surface may pass it or not, and slivers thinner than a voxel are not in the mesh.
-  CHECK(double(tally.same_outcome) > 0.97 * double(tally.rays));
+  CHECK(double(tally.same_outcome) > same_outcome * double(tally.rays));
   CHECK(double(tally.near_the_mesh) > 0.99 * double(tally.hits));
-  CHECK(double(tally.same_depth) > 0.9 * double(tally.hits));
+  CHECK(double(tally.same_depth) > same_depth * double(tally.hits));
   CHECK(double(tally.closely) > 0.8 * double(tally.hits));
 }
 
@@ -103,7 +103,7 @@ TEST_CASE("rays first meet the unseen where the exported mesh is, within its res
     const TriangleMesh mesh = unseen_surface(lattices, geometry);
     compare(SeenSpace(lattices, geometry.box()), mesh, random_view(random), tally);
   }
-  expect_agreement(tally);
+  expect_agreement(tally, 0.97, 0.9);
 }
 
 TEST_CASE("the same of noisy images with what the filter leaves of the unseen") {
@@ -117,7 +117,8 @@ TEST_CASE("the same of noisy images with what the filter leaves of the unseen") 
     const SeenSpace space(lattices, geometry.box(), &shell);
     compare(space, unseen_surface(lattices, *opened), random_view(random), tally);
   }
-  expect_agreement(tally);
+  // Slivers are what the filter takes away: a mesh without it has the same outcome for 0.977.
+  expect_agreement(tally, 0.985, 0.93);
 }
 
 }  // namespace vantage
