@@ -85,6 +85,8 @@ class VANTAGE_API MeshScorer final : public ViewScorer, public ShadowView {
 
   std::string_view name() const noexcept override { return "mesh"; }
   double unit() const noexcept override;
+  /// Metres to the power for `MeshWeight::depth`, cubic metres for `MeshWeight::volume`: of pixels'
+  /// depths, so that both depend on the width of the image.
   std::string_view unit_name() const noexcept override;
   Score upper_bound(const PinholeCamera& view) const override;
   void score(std::span<const PinholeCamera> views, std::span<const Score> needed,

@@ -43,7 +43,8 @@ VANTAGE_API TriangleMesh unseen_surface(std::span<const DepthLattice> lattices,
 /// The same with what a filter for false shadow left: of the unseen, what is within
 /// `shell_around_shadow(filtered)`, by the voxels of `filtered`. The surface is where rays first
 /// meet what is unseen in a `SeenSpace` with that shell.
-/// @param filtered what `carve` made of these lattices, then filtered.
+/// @param filtered what `carve` made of these lattices, then filtered (`opened_shadow`).
+/// @throws Error bad_input as above.
 VANTAGE_API TriangleMesh unseen_surface(std::span<const DepthLattice> lattices,
                                         const StateGrid& filtered);
 
