@@ -1,7 +1,9 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <memory>
+#include <vector>
 
 #include "flat_faces.hpp"
 #include "vantage/raycore/camera.hpp"
@@ -37,7 +39,7 @@ struct FacePolygon {
   bool grazing;         ///< seen from so flat that nothing is known of its rays' depths
 };
 
-/// Projects faces into one camera; all their corners at once, before the first is asked for.
+/// Projects faces into one camera, group by group.
 class FaceProjector {
  public:
   /// Where polygons are wanted.
@@ -46,25 +48,57 @@ class FaceProjector {
     double farthest_m;
   };
 
+  /// A group of faces that the window's rays may meet, from whatever side.
+  struct GroupInView {
+    std::uint32_t index;
+    PixelSpan columns, rows;  ///< beyond them, no ray meets one of its faces
+    double farthest_m;        ///< nor farther than this, unless one is grazing
+    bool grazing;
+    bool facing;  ///< some of its faces may look at the camera
+  };
+
   /// @param faces have to outlive this.
   FaceProjector(const PinholeCamera& camera, const FlatFaces& faces);
   FaceProjector(const PinholeCamera& camera, const FlatFaces& faces, const Window& window);
 
   /// How far rounding may move a ray, metres.
   double margin_m() const { return margin_m_; }
-  /// The largest depth of any corner.
+  const std::vector<GroupInView>& groups() const { return groups_; }
+  /// None of the window's rays meets a face farther than this, from whatever side, unless it is
+  /// grazing.
   double farthest_m() const { return farthest_m_; }
-  /// How far the camera is in front of a face's plane.
-  double height_m(const FlatFaces::Face& face) const {
-    return face.normal.dot(centre_) - face.offset_m;
+
+  /// From now on, faces are seen from behind, too: the camera is inside of what they surround.
+  void see_backs();
+
+  /// Calls `visit(face)` for those faces of a group that may look at the camera: all that `project`
+  /// and `project_outline` may be asked for until this is called again.
+  template <class Visit>
+  void for_each_face(const GroupInView& seen, const Visit& visit) {
+    const FlatFaces::Group& group = faces_.groups[seen.index];
+    if (!seen.facing) return;
+    load_corners(group);
+    for (std::uint32_t i = group.first_face; i < group.last_face; ++i) {
+      const FlatFaces::Face& face = faces_.list[i];
+      if (height_m(face) < lowest_m_) continue;
+      if (!group.parallel) outwards_ = R_cam_world_ * face.normal;
+      visit(face);
+    }
   }
 
   /// @returns false if no ray of the window can meet the face within the depth range.
   bool project(const FlatFaces::Face& face, FacePolygon& polygon) const;
 
   /// The same, but for depths and what is certain; small polygons are left at their columns and
-  /// rows.
-  bool project_outline(const FlatFaces::Face& face, FacePolygon& polygon) const;
+  /// rows. Nor is there a polygon of those columns and rows that are not `wanted(polygon)`.
+  template <class Wanted>
+  bool project_outline(const FlatFaces::Face& face, const Wanted& wanted,
+                       FacePolygon& polygon) const {
+    Corners corners;
+    if (!project_corners(face, corners, polygon) || !wanted(polygon)) return false;
+    set_outline(corners, polygon);
+    return true;
+  }
 
  private:
   /// A face's corners, cut off at the near depth.
@@ -77,9 +111,21 @@ class FaceProjector {
     double margin;  ///< pixels by which rounding may move a ray
   };
 
+  void find_groups();
+  bool in_depth(double nearest_m) const {
+    return nearest_m <= window_.farthest_m * (1 + 1e-3) + margin_m_;
+  }
+  /// Pixels by which rounding may move rays to what is not nearer than this.
+  double margin_px(double nearest_m) const;
+  double worst_rounding(const FlatFaces::Group& group) const;
+  void load_corners(const FlatFaces::Group& group);
+  double height_m(const FlatFaces::Face& face) const {
+    return face.normal.dot(centre_) - face.offset_m;
+  }
   bool project_corners(const FlatFaces::Face& face, Corners& corners, FacePolygon& polygon) const;
   void clip(const FlatFaces::Face& face, Corners& corners) const;
   void set_edges(const Corners& corners, FacePolygon& polygon) const;
+  void set_outline(const Corners& corners, FacePolygon& polygon) const;
   void set_depth(const FlatFaces::Face& face, const Corners& corners, FacePolygon& polygon) const;
 
   const FlatFaces& faces_;
@@ -87,12 +133,18 @@ class FaceProjector {
   Window window_;
   Eigen::Vector3d centre_;
   Eigen::Matrix3d R_cam_world_;
+  double per_fx_, per_fy_;
   double margin_m_;
   double pixels_per_radian_;  ///< at most, anywhere on the image
   double clip_m_;             ///< what is nearer does not count
+  double lowest_m_;           ///< faces that are lower look away
   double farthest_m_ = 0;
+  std::vector<GroupInView> groups_;
 
-  // Of every corner. Pixels are of no use where the depth is not above `clip_m_`.
+  // Of the corners of one group, from `loaded_` on. Pixels are of no use where the depth is not
+  // above `clip_m_`.
+  std::uint32_t loaded_ = 0;
+  Eigen::Vector3d outwards_;  ///< the normal, in the camera's frame, of the face that is visited
   std::unique_ptr<double[]> u_, v_, depth_;
 };
 

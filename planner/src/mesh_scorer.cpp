@@ -192,10 +192,11 @@ std::vector<ScoreTerm> MeshScorer::terms(const PinholeCamera& given) const {
 }
 
 std::optional<ShadowBounds> MeshScorer::shadow_bounds(const PinholeCamera& view) const {
-  return look(view).bounds;
+  return look(view, std::nullopt).bounds;
 }
 
-ShadowSight MeshScorer::look(const PinholeCamera& view) const {
+ShadowSight MeshScorer::look(const PinholeCamera& view,
+                             const std::optional<OutermostShadow>& /*expected*/) const {
   impl_->check(view);
   const Intrinsics& k = view.intrinsics();
   const MeshPixels rule = impl_->pixels(view);

@@ -5,18 +5,10 @@
 #include <numeric>
 #include <utility>
 
+#include "z_curve.hpp"
+
 namespace vantage::detail {
 namespace {
-
-/// Two zero bits between each of the lower 21 bits of `v`.
-std::uint64_t with_gaps(std::uint64_t v) {
-  v = (v | v << 32) & 0x001F00000000FFFF;
-  v = (v | v << 16) & 0x001F0000FF0000FF;
-  v = (v | v << 8) & 0x100F00F00F00F00F;
-  v = (v | v << 4) & 0x10C30C30C30C30C3;
-  v = (v | v << 2) & 0x1249249249249249;
-  return v;
-}
 
 struct Corners {
   Eigen::Vector3d min, max;
@@ -29,34 +21,6 @@ Corners corners(PointsView points) {
     box.min = box.min.cwiseMin(p), box.max = box.max.cwiseMax(p);
   }
   return box;
-}
-
-/// More points than this stay as they are: grids hand them out block by block, which will do where
-/// sorting would take seconds.
-constexpr std::size_t kMostSorted = std::size_t(1) << 22;
-
-/// The points' places along a Z-shaped curve through their box; among equals as given.
-std::vector<std::uint32_t> curve_order(PointsView points) {
-  if (points.size > kMostSorted) {
-    std::vector<std::uint32_t> order(points.size);
-    std::iota(order.begin(), order.end(), 0u);
-    return order;
-  }
-  const Corners box = corners(points);
-  const double longest = std::max((box.max - box.min).maxCoeff(), 1e-30);
-  const double scale = double((1 << 21) - 1) / longest;
-  std::vector<std::pair<std::uint64_t, std::uint32_t>> keys(points.size);
-  for (std::size_t i = 0; i < points.size; ++i) {
-    const Eigen::Vector3d p = (points[i].cast<double>() - box.min) * scale;
-    keys[i] = {with_gaps(std::uint64_t(p.x())) << 2 | with_gaps(std::uint64_t(p.y())) << 1 |
-                   with_gaps(std::uint64_t(p.z())),
-               std::uint32_t(i)};
-  }
-  std::sort(keys.begin(), keys.end());
-  std::vector<std::uint32_t> order(points.size);
-  std::transform(keys.begin(), keys.end(), order.begin(),
-                 [](const auto& key) { return key.second; });
-  return order;
 }
 
 /// 0 … count - 1 by their bits read backwards (J. van der Corput, 1935).
@@ -100,22 +64,9 @@ BoxLanes parent_boxes(const BoxLanes& below) {
 
 }  // namespace
 
-BoxLanes::BoxLanes(std::size_t count) : size(count) {
-  const std::size_t filled = (count + kBlocksPerParent - 1) / kBlocksPerParent * kBlocksPerParent;
-  for (auto* lanes : {&centre_x, &centre_y, &centre_z, &half_x, &half_y, &half_z}) {
-    lanes->resize(filled);
-  }
-}
-
-void BoxLanes::set(std::size_t i, const Eigen::Vector3d& min, const Eigen::Vector3d& max) {
-  const Eigen::Vector3d centre = 0.5 * (min + max), half = 0.5 * (max - min);
-  centre_x[i] = centre.x(), centre_y[i] = centre.y(), centre_z[i] = centre.z();
-  half_x[i] = half.x(), half_y[i] = half.y(), half_z[i] = half.z();
-}
-
 PointPackets::PointPackets(const Points& given) : size(given.size()) {
   if (size == 0) return;
-  original = curve_order(given);
+  original = z_curve_order(given);
   const std::size_t packet_count = (size + kPacketWidth - 1) / kPacketWidth;
   points.resize(packet_count * kPacketWidth);
   for (std::size_t i = 0; i < points.size(); ++i) {

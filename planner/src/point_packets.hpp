@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "box_lanes.hpp"
 #include "vantage/raycore/points.hpp"
 
 namespace vantage::detail {
@@ -12,17 +13,7 @@ namespace vantage::detail {
 /// the next level: 4 packets each of 16 make the lowest.
 inline constexpr std::size_t kPacketsPerBlock = 4;
 inline constexpr std::size_t kPointsPerBlock = kPacketsPerBlock * kPacketWidth;
-inline constexpr std::size_t kBlocksPerParent = 8;
-
-/// Bounding boxes, one array per number, so that eight are tested at once: filled up to a multiple
-/// of that with boxes of no size. Metres.
-struct BoxLanes {
-  std::size_t size = 0;
-  std::vector<double> centre_x, centre_y, centre_z, half_x, half_y, half_z;
-
-  explicit BoxLanes(std::size_t count);
-  void set(std::size_t i, const Eigen::Vector3d& min, const Eigen::Vector3d& max);
-};
+inline constexpr std::size_t kBlocksPerParent = kBoxLanes;
 
 /// A set of points for packets of rays: in an order in which neighbours in the list are neighbours
 /// in space (along a Z-shaped curve), the last packet filled up with copies of the last point.

@@ -92,9 +92,10 @@ ServoRefiner::ServoRefiner(std::shared_ptr<const ShadowView> view,
 
 std::vector<ServoStep> ServoRefiner::path(const Pose& T_world_cam) const {
   std::vector<ServoStep> steps = {{T_world_cam, ServoMove::start}};
+  ShadowSight sight;
   for (int i = 0; i < options_.iterations; ++i) {
     const PinholeCamera camera = camera_.moved_to(steps.back().T_world_cam);
-    const ShadowSight sight = view_->look(camera);
+    sight = view_->look(camera, sight.outermost);
     steps.back().score = sight.score;
     if (!sight.bounds) break;
     const std::optional<ServoStep> next = step(camera, *sight.bounds);

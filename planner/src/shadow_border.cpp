@@ -1,6 +1,9 @@
 #include "shadow_border.hpp"
 
 #include <array>
+#include <bit>
+#include <cmath>
+#include <utility>
 #include <vector>
 
 #include "depth_weight.hpp"
@@ -15,67 +18,104 @@ constexpr int kSide = PixelTile::kSide;
 // Few enough that what they show spares many of those behind them, enough to be worth a call.
 constexpr std::size_t kBatchTiles = 8;
 
-/// Which pixels may show shadow and have not been looked at, tile by tile.
-class OpenTiles {
- public:
-  explicit OpenTiles(const ShadowOutline& shadow)
-      : first_{std::uint16_t(shadow.columns.first / kSide),
-               std::uint16_t(shadow.rows.first / kSide)},
-        last_{std::uint16_t(shadow.columns.last / kSide), std::uint16_t(shadow.rows.last / kSide)},
-        columns_(std::size_t(last_.column - first_.column) + 1),
-        pixels_(columns_ * (std::size_t(last_.row - first_.row) + 1)) {
-    ViewCover cover(shadow.columns, shadow.rows);
-    for (const FacePolygon& face : shadow.faces) cover.draw_possible(face);
-    std::array<PixelTile, 32> room;
-    for (std::size_t block = 0; block < cover.block_count(); ++block) {
-      for (const PixelTile tile : cover.tiles(block, room)) at(tile) = cover.possible(block, tile);
-    }
-  }
-
-  PixelTile first() const { return first_; }
-  PixelTile last() const { return last_; }
-  std::uint16_t& at(PixelTile tile) {
-    return pixels_[std::size_t(tile.row - first_.row) * columns_ +
-                   std::size_t(tile.column - first_.column)];
-  }
-
- private:
-  PixelTile first_, last_;
-  std::size_t columns_;
-  std::vector<std::uint16_t> pixels_;
-};
-
-/// Traces tiles from the borders inwards, as long as they may widen the bounds.
+/// Traces tiles from the borders inwards, as long as they may widen the bounds. Which tiles may
+/// show shadow is drawn as the scan comes to them: faces within the bounds never are.
 class BorderScan {
  public:
-  BorderScan(const PlanningScene& scene, const PinholeCamera& view, const ShadowOutline& shadow)
+  BorderScan(const PlanningScene& scene, const PinholeCamera& view, const ShadowFaces& faces)
       : scene_(scene),
         view_(view),
-        open_(shadow),
+        projector_(project_shadow(view, faces, scene.grid())),
         bounds_{view.intrinsics().width, -1, view.intrinsics().height, -1} {}
 
-  std::optional<ShadowBounds> find() {
-    const PixelTile first = open_.first(), last = open_.last();
-    for (int row = first.row; row <= last.row && kSide * row < bounds_.top; ++row) {
+  ShadowSight find(const std::optional<OutermostShadow>& expected) {
+    open_image();
+    if (columns_.last < 0) return {};
+    if (expected) trace_at(*expected);
+    for (int row = first_.row; row <= last_.row && kSide * row < bounds_.top; ++row) {
+      draw_groups([&](const Group& g) { return g.rows.first < kSide * (row + 1); });
       trace_row(row, [&](const ShadowBounds& b) { return b.top < bounds_.top; });
     }
-    if (bounds_.right < 0) return std::nullopt;
-    for (int row = last.row; kSide * row + kSide - 1 > bounds_.bottom; --row) {
+    if (bounds_.right < 0) return {};
+    top_is_known_ = true;
+    for (int row = last_.row; kSide * row + kSide - 1 > bounds_.bottom; --row) {
+      draw_groups([&](const Group& g) { return g.rows.last >= kSide * row; });
       trace_row(row, [&](const ShadowBounds& b) { return b.bottom > bounds_.bottom; });
     }
-    for (int column = first.column; kSide * column < bounds_.left; ++column) {
+    bottom_is_known_ = true;
+    for (int column = first_.column; kSide * column < bounds_.left; ++column) {
+      draw_groups([&](const Group& g) { return g.columns.first < kSide * (column + 1); });
       trace_column(column, [&](const ShadowBounds& b) { return b.left < bounds_.left; });
     }
-    for (int column = last.column; kSide * column + kSide - 1 > bounds_.right; --column) {
+    left_is_known_ = true;
+    for (int column = last_.column; kSide * column + kSide - 1 > bounds_.right; --column) {
+      draw_groups([&](const Group& g) { return g.columns.last >= kSide * column; });
       trace_column(column, [&](const ShadowBounds& b) { return b.right > bounds_.right; });
     }
-    return bounds_;
+    return {.bounds = bounds_, .outermost = outermost_};
   }
 
  private:
+  using Group = FaceProjector::GroupInView;
+
+  /// Finds where on the image there may be shadow at all.
+  void open_image() {
+    if (too_uncertain(projector_, view_)) {
+      columns_ = {0, view_.intrinsics().width - 1}, rows_ = {0, view_.intrinsics().height - 1};
+    } else {
+      for (const Group& group : projector_.groups()) {
+        if (!group.facing) continue;
+        waiting_.push_back(&group);
+        widen(columns_, group.columns), widen(rows_, group.rows);
+      }
+    }
+    if (columns_.last < 0) return;
+    first_ = {std::uint16_t(columns_.first / kSide), std::uint16_t(rows_.first / kSide)};
+    last_ = {std::uint16_t(columns_.last / kSide), std::uint16_t(rows_.last / kSide)};
+    cover_.emplace(columns_, rows_);
+    traced_.resize(std::size_t(last_.column - first_.column + 1) *
+                   std::size_t(last_.row - first_.row + 1));
+    if (waiting_.empty()) cover_->draw_possible(whole_image(view_));
+  }
+
+  /// Whether what lies in these columns and rows may widen the bounds where they are not known.
+  bool matters(const PixelSpan& columns, const PixelSpan& rows) const {
+    return (!top_is_known_ && rows.first < bounds_.top) ||
+           (!bottom_is_known_ && rows.last > bounds_.bottom) ||
+           (!left_is_known_ && columns.first < bounds_.left) || columns.last > bounds_.right;
+  }
+
+  template <class IsNext>
+  void draw_groups(const IsNext& is_next) {
+    const auto matter = [&](const FacePolygon& p) { return matters(p.columns, p.rows); };
+    FacePolygon polygon;
+    std::erase_if(waiting_, [&](const Group* group) {
+      if (!matters(group->columns, group->rows)) return true;
+      if (!is_next(*group)) return false;
+      projector_.for_each_face(*group, [&](const FlatFaces::Face& face) {
+        if (projector_.project_outline(face, matter, polygon)) cover_->draw_possible(polygon);
+      });
+      return true;
+    });
+  }
+
+  /// Looks first where the shadow's outermost points are expected to be.
+  void trace_at(const OutermostShadow& points) {
+    for (const Eigen::Vector3d& point : points) {
+      const auto at = view_.project(point);
+      if (!at) continue;
+      const double column = std::floor((at->u + 0.5) / kSide),
+                   row = std::floor((at->v + 0.5) / kSide);
+      if (column < first_.column || column > last_.column) continue;
+      if (row < first_.row || row > last_.row) continue;
+      open_tile({std::uint16_t(column), std::uint16_t(row)});
+    }
+    trace_batch();
+  }
+
   template <class MayWiden>
   void trace_row(int row, const MayWiden& may_widen) {
-    for (int column = open_.first().column; column <= open_.last().column; ++column) {
+    for (int column = first_.column; column <= last_.column; ++column) {
       add({std::uint16_t(column), std::uint16_t(row)}, may_widen);
     }
     trace_batch();
@@ -89,11 +129,21 @@ class BorderScan {
   }
   template <class MayWiden>
   void add(PixelTile tile, const MayWiden& may_widen) {
-    std::uint16_t& pixels = open_.at(tile);
+    if (traced(tile) != 0) return;
+    const std::uint16_t pixels = cover_->possible(tile);
     if (pixels == 0 || !may_widen(bounds_of(tile, pixels))) return;
-    pixels = 0;
-    batch_[batch_size_++] = tile;
+    open_tile(tile);
     if (batch_size_ == kBatchTiles) trace_batch();
+  }
+
+  std::uint8_t& traced(PixelTile tile) {
+    return traced_[std::size_t(tile.row - first_.row) *
+                       std::size_t(last_.column - first_.column + 1) +
+                   std::size_t(tile.column - first_.column)];
+  }
+
+  void open_tile(PixelTile tile) {
+    if (std::exchange(traced(tile), std::uint8_t(1)) == 0) batch_[batch_size_++] = tile;
   }
 
   void trace_batch() {
@@ -102,16 +152,39 @@ class BorderScan {
     for (std::size_t i = 0; i < batch_size_; ++i) {
       const unsigned shown = shadow_pixels(view_.intrinsics(), view_.range(),
                                            scene_.shadow_object(), tiles[i], hits_[i]);
-      if (shown == 0) continue;
-      bounds_ = joined(bounds_, bounds_of(tiles[i], shown));
+      if (shown != 0) widen_to(tiles[i], shown, hits_[i]);
     }
     batch_size_ = 0;
   }
 
+  void widen_to(PixelTile tile, unsigned shown, const TileHits& hits) {
+    const ShadowBounds b = bounds_of(tile, shown),
+                       before = std::exchange(bounds_, joined(bounds_, b));
+    if (bounds_ == before) return;
+    for (unsigned pixels = shown; pixels != 0; pixels &= pixels - 1) {
+      const int i = std::countr_zero(pixels);
+      const int u = kSide * tile.column + i % kSide, v = kSide * tile.row + i / kSide;
+      const auto keep = [&](bool outermost, std::size_t border) {
+        if (outermost) outermost_[border] = view_.unproject(u, v, double(hits.t[i]));
+      };
+      keep(u == b.left && b.left < before.left, 0);
+      keep(u == b.right && b.right > before.right, 1);
+      keep(v == b.top && b.top < before.top, 2);
+      keep(v == b.bottom && b.bottom > before.bottom, 3);
+    }
+  }
+
   const PlanningScene& scene_;
   const PinholeCamera& view_;
-  OpenTiles open_;
+  FaceProjector projector_;
+  std::vector<const Group*> waiting_;  ///< whose faces are not drawn
+  PixelSpan columns_{0, -1}, rows_{0, -1};
+  PixelTile first_, last_;
+  std::optional<ViewCover> cover_;
+  std::vector<std::uint8_t> traced_;  ///< tiles, row by row
   ShadowBounds bounds_;
+  OutermostShadow outermost_;  ///< left, right, top, bottom
+  bool top_is_known_ = false, bottom_is_known_ = false, left_is_known_ = false;
   std::array<PixelTile, kBatchTiles> batch_;
   std::array<TileHits, kBatchTiles> hits_;
   std::size_t batch_size_ = 0;
@@ -119,10 +192,10 @@ class BorderScan {
 
 }  // namespace
 
-std::optional<ShadowBounds> find_shadow_bounds(const PlanningScene& scene,
-                                               const PinholeCamera& view,
-                                               const ShadowOutline& shadow) {
-  return BorderScan(scene, view, shadow).find();
+ShadowSight find_shadow_border(const PlanningScene& scene, const PinholeCamera& view,
+                               const ShadowFaces& faces,
+                               const std::optional<OutermostShadow>& expected) {
+  return BorderScan(scene, view, faces).find(expected);
 }
 
 }  // namespace vantage::detail

@@ -8,10 +8,13 @@
 
 namespace vantage::detail {
 
-/// The outermost pixels that show shadow, by rays from the image's borders inwards: what lies
-/// between them need not be known.
-std::optional<ShadowBounds> find_shadow_bounds(const PlanningScene& scene,
-                                               const PinholeCamera& view,
-                                               const ShadowOutline& shadow);
+/// The outermost pixels that show shadow, and points that they show, by rays from the image's
+/// borders inwards: what lies between them need not be known.
+///
+/// @param faces of the scene.
+/// @param expected changes no bounds; where it is right, what is behind it is not looked at.
+ShadowSight find_shadow_border(const PlanningScene& scene, const PinholeCamera& view,
+                               const ShadowFaces& faces,
+                               const std::optional<OutermostShadow>& expected);
 
 }  // namespace vantage::detail

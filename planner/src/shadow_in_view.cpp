@@ -18,7 +18,22 @@ bool in_shadow(const StateGrid& grid, const Eigen::Vector3d& point, double margi
   return false;
 }
 
-/// Rays are too uncertain for anything to be drawn: this stands for every face.
+template <class Keep>
+void add_polygons(FaceProjector& projector, const Keep& keep, std::vector<FacePolygon>& polygons) {
+  for (const FaceProjector::GroupInView& group : projector.groups()) {
+    projector.for_each_face(group, [&](const FlatFaces::Face& face) {
+      FacePolygon& polygon = polygons.emplace_back();
+      if (!projector.project(face, polygon) || !keep(polygon)) polygons.pop_back();
+    });
+  }
+}
+
+}  // namespace
+
+bool too_uncertain(const FaceProjector& projector, const PinholeCamera& view) {
+  return !(projector.margin_m() < 0.1 * view.range().near_m);
+}
+
 FacePolygon whole_image(const PinholeCamera& view) {
   FacePolygon all{};
   all.columns = {0, view.intrinsics().width - 1};
@@ -35,38 +50,11 @@ void widen(PixelSpan& all, const PixelSpan& one) {
       all.last < 0 ? one : PixelSpan{std::min(all.first, one.first), std::max(all.last, one.last)};
 }
 
-/// Calls `project(face, polygon)` for the faces that a camera may see, and keeps what that says is
-/// in view.
-template <class Project>
-void add_visible(const FaceProjector& projector, const FlatFaces& faces, bool from_inside,
-                 const Project& project, std::vector<FacePolygon>& polygons) {
-  const double lowest_m = from_inside ? -1e300 : -projector.margin_m();
-  FacePolygon polygon;
-  for (const FlatFaces::Face& face : faces.list) {
-    if (projector.height_m(face) < lowest_m) continue;
-    if (project(face, polygon)) polygons.push_back(polygon);
-  }
-}
-
-bool too_uncertain(const FaceProjector& projector, const PinholeCamera& view) {
-  return !(projector.margin_m() < 0.1 * view.range().near_m);
-}
-
-}  // namespace
-
-ShadowOutline::ShadowOutline(const PinholeCamera& view, const ShadowFaces& all,
+FaceProjector project_shadow(const PinholeCamera& view, const ShadowFaces& all,
                              const StateGrid& grid) {
-  if (all.shadow.list.empty()) return;
-  const FaceProjector projector(view, all.shadow);
-  if (too_uncertain(projector, view)) {
-    faces.push_back(whole_image(view));
-  } else {
-    add_visible(
-        projector, all.shadow, in_shadow(grid, view.centre(), projector.margin_m()),
-        [&](const auto& face, auto& polygon) { return projector.project_outline(face, polygon); },
-        faces);
-  }
-  for (const FacePolygon& face : faces) widen(columns, face.columns), widen(rows, face.rows);
+  FaceProjector projector(view, all.shadow);
+  if (in_shadow(grid, view.centre(), projector.margin_m())) projector.see_backs();
+  return projector;
 }
 
 ShadowInView::ShadowInView(const PinholeCamera& view, const ShadowFaces& all,
@@ -81,33 +69,28 @@ ShadowInView::ShadowInView(const PinholeCamera& view, const ShadowFaces& all,
 
 void ShadowInView::add_shadow(const PinholeCamera& view, const ShadowFaces& all,
                               const StateGrid& grid) {
-  // The rays' depths err by a hundredth at most where faces are not seen too flat.
-  constexpr double kRoundingOfDepths = 1.02;
-  const FaceProjector projector(view, all.shadow);
+  FaceProjector projector = project_shadow(view, all, grid);
   if (too_uncertain(projector, view)) {
     farthest_m = view.range().far_m;
     polygons.push_back(whole_image(view));
   } else {
-    farthest_m = projector.farthest_m() * kRoundingOfDepths;
-    add_visible(
-        projector, all.shadow, in_shadow(grid, view.centre(), projector.margin_m()),
-        [&](const auto& face, auto& polygon) { return projector.project(face, polygon); },
-        polygons);
+    farthest_m = projector.farthest_m();
+    add_polygons(
+        projector, [](const FacePolygon&) { return true; }, polygons);
   }
   for (const FacePolygon& face : polygons) widen(columns, face.columns), widen(rows, face.rows);
 }
 
 void ShadowInView::add_occluders(const PinholeCamera& view, const FlatFaces& occluders) {
   if (occluders.list.empty()) return;
-  const FaceProjector projector(view, occluders, {columns, rows, farthest_m});
+  FaceProjector projector(view, occluders, {columns, rows, farthest_m});
   if (too_uncertain(projector, view)) return;
   double last_m = 0;
   for (const FacePolygon& face : polygons) last_m = std::max(last_m, face.nearest_m);
-  add_visible(
-      projector, occluders, false,
-      [&](const auto& face, auto& polygon) {
-        return projector.project(face, polygon) && polygon.certain_rows.last >= 0 &&
-               polygon.farthest_m < last_m;
+  add_polygons(
+      projector,
+      [&](const FacePolygon& polygon) {
+        return polygon.certain_rows.last >= 0 && polygon.farthest_m < last_m;
       },
       polygons);
 }

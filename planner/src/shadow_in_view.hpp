@@ -19,17 +19,22 @@ struct ShadowFaces {
         occluders(largest_faces_of(scene.occluders())) {}
 };
 
+/// Rays are too uncertain for anything to be drawn: faces may be anywhere on the image.
+bool too_uncertain(const FaceProjector& projector, const PinholeCamera& view);
+
+/// Stands for every face then.
+FacePolygon whole_image(const PinholeCamera& view);
+
+/// Makes `all` hold `one`, too.
+void widen(PixelSpan& all, const PixelSpan& one);
+
+/// @param grid that the faces were made from.
+FaceProjector project_shadow(const PinholeCamera& view, const ShadowFaces& all,
+                             const StateGrid& grid);
+
 /// The faces of the shadow that a view's rays may meet first, as far as they are on the image and
-/// in the depth range: from outside, those that look at the camera. But for their depths.
-struct ShadowOutline {
-  std::vector<FacePolygon> faces;
-  PixelSpan columns{0, -1}, rows{0, -1};  ///< all of them lie in there
-
-  /// @param grid that the faces were made from.
-  ShadowOutline(const PinholeCamera& view, const ShadowFaces& all, const StateGrid& grid);
-};
-
-/// The same faces, and among them what hides some of them.
+/// in the depth range: from outside, those that look at the camera. And among them what hides some
+/// of them.
 struct ShadowInView {
   std::vector<FacePolygon> polygons;      ///< the shadow's first, then occluders
   std::size_t shadow_count = 0;           ///< so many are the shadow's

@@ -162,9 +162,12 @@ std::vector<ScoreTerm> ShadowScorer::terms(const PinholeCamera& view) const {
 }
 
 std::optional<ShadowBounds> ShadowScorer::shadow_bounds(const PinholeCamera& view) const {
-  const detail::ShadowOutline shadow(view, impl_->faces, impl_->scene.grid());
-  if (shadow.faces.empty()) return std::nullopt;
-  return detail::find_shadow_bounds(impl_->scene, view, shadow);
+  return look(view, std::nullopt).bounds;
+}
+
+ShadowSight ShadowScorer::look(const PinholeCamera& view,
+                               const std::optional<OutermostShadow>& expected) const {
+  return detail::find_shadow_border(impl_->scene, view, impl_->faces, expected);
 }
 
 }  // namespace vantage

@@ -29,37 +29,41 @@ struct Drawing {
   }
 };
 
-/// What a face's pixels count at a column where blocks meet.
-struct Node {
+/// What a face's pixels count at one column of each row.
+struct EndWeights {
   RowLanes<float> weight;
   RowLanes<std::int32_t> trusted;
 };
 
-[[gnu::always_inline]] inline void find_node(const Drawing& d, int row, int column, Node& node) {
-  const float at_column = d.polygon.at_origin + d.polygon.per_u * float(column);
+[[gnu::always_inline]] inline void find_weights(const Drawing& d, int first_row, int first_column,
+                                                const RowLanes<std::int32_t>& column,
+                                                EndWeights& end) {
   RowLanes<float> part;
   VANTAGE_EACH_ROW(i) {
-    const float inverse = at_column + d.polygon.per_v * float(row + i);
-    node.trusted.at[i] = inverse > d.least;
+    const float inverse = d.polygon.at_origin +
+                          d.polygon.per_u * float(first_column + column.at[i]) +
+                          d.polygon.per_v * float(first_row + i);
+    end.trusted.at[i] = inverse > d.least;
     part.at[i] = d.weight.per_far / (inverse > d.least ? inverse : d.least);
-    node.weight.at[i] = d.weight.factor;
+    end.weight.at[i] = d.weight.factor;
   }
   for (int factor = 0; factor < d.weight.power; ++factor) {
-    VANTAGE_EACH_ROW(i) node.weight.at[i] *= part.at[i];
+    VANTAGE_EACH_ROW(i) end.weight.at[i] *= part.at[i];
   }
 }
 
 /// Adds to each row what its fresh pixels count at most. depth^power is convex along a row, so that
-/// it is below the straight line between a block's two ends, unless the face's plane is behind the
-/// camera there. On that line, all pixels of a span count their mean, some at most the larger end.
+/// it is below the straight line between a span's two ends, unless rounding puts the face's plane
+/// behind the camera there. On that line, all pixels of a span count their mean, some at most the
+/// larger end.
 [[gnu::always_inline]] inline void draw_block(const Drawing& d, const RowSpans& outer,
-                                              const RowSpans& inner, const Node& left,
-                                              const Node& right, int first_column,
-                                              CoverBlock& block) {
-  RowLanes<std::int32_t> begin, end, may_begin, may_end;
+                                              const RowSpans& inner, int first_row,
+                                              int first_column, CoverBlock& block) {
+  RowLanes<std::int32_t> begin, end, last, may_begin, may_end;
   VANTAGE_EACH_ROW(i) {
     begin.at[i] = within_block(inner.begin.at[i], first_column);
     end.at[i] = within_block(inner.end.at[i], first_column);
+    last.at[i] = end.at[i] - 1;
     may_begin.at[i] = within_block(outer.begin.at[i], first_column);
     may_end.at[i] = within_block(outer.end.at[i], first_column);
   }
@@ -68,24 +72,32 @@ struct Node {
     must.at[i] = span_bits(begin.at[i], end.at[i]);
     may.at[i] = span_bits(may_begin.at[i], may_end.at[i]);
   }
+  RowLanes<std::uint32_t> fresh, unsure;
+  std::uint32_t any = 0;
+  VANTAGE_EACH_ROW(i) {
+    const std::uint32_t open = ~block.certain[i];
+    fresh.at[i] = must.at[i] & open;
+    unsure.at[i] = may.at[i] & ~must.at[i] & open;
+    any |= may.at[i] & open;
+  }
+  if (any == 0) return;
   RowLanes<float> fresh_count, unsure_count, some;
   VANTAGE_EACH_ROW(i) {
-    const std::uint32_t before = block.certain[i], fresh = must.at[i] & ~before;
-    fresh_count.at[i] = bit_count(fresh);
-    unsure_count.at[i] = bit_count(may.at[i] & ~must.at[i] & ~before);
-    some.at[i] = float(std::int32_t(fresh != must.at[i]));
-    block.certain[i] = before | must.at[i];
-    block.possible[i] |= may.at[i] & ~before;
+    fresh_count.at[i] = bit_count(fresh.at[i]);
+    unsure_count.at[i] = bit_count(unsure.at[i]);
+    some.at[i] = float(std::int32_t(fresh.at[i] != must.at[i]));
+    block.certain[i] |= must.at[i];
+    block.possible[i] |= fresh.at[i] | unsure.at[i];
   }
+  EndWeights left, right;
+  find_weights(d, first_row, first_column, begin, left);
+  find_weights(d, first_row, first_column, last, right);
   const float largest = d.largest, doubtful = d.doubtful;
   VANTAGE_EACH_ROW(i) {
-    const float at_left = left.weight.at[i];
-    const float slope = (right.weight.at[i] - at_left) * (1.0f / kColumns);
-    const float first = at_left + slope * float(begin.at[i]);
-    const float last = at_left + slope * float(end.at[i] - 1);
+    const float first = left.weight.at[i], second = right.weight.at[i];
     const float doubt = float(1 - (left.trusted.at[i] & right.trusted.at[i]));
     const float line =
-        0.5f * (first + last) + some.at[i] * 0.5f * std::fabs(last - first) + doubt * largest;
+        0.5f * (first + second) + some.at[i] * 0.5f * std::fabs(second - first) + doubt * largest;
     const float each = line < largest ? line : largest;
     block.bound[i] += fresh_count.at[i] * each + unsure_count.at[i] * doubtful;
   }
@@ -108,18 +120,13 @@ void draw_polygon(const FacePolygon& p, const WeightBound& w, int origin_chunk, 
   const Reach reach(p);
   const Drawing drawing(p, w);
   RowSpans outer, inner;
-  Node nodes[2];
   for (int group = reach.first_group; group <= reach.last_group; ++group) {
     const int row = group * kRows;
     find_spans<&PolygonEdge::outer>(p, p.rows, row, outer);
     find_spans<&PolygonEdge::inner>(p, p.certain_rows, row, inner);
     const int block_row = (group - origin_group) * chunks - origin_chunk;
-    find_node(drawing, row, reach.first_chunk * kColumns, nodes[reach.first_chunk & 1]);
     for (int chunk = reach.first_chunk; chunk <= reach.last_chunk; ++chunk) {
-      const Node& left = nodes[chunk & 1];
-      Node& right = nodes[(chunk + 1) & 1];
-      find_node(drawing, row, (chunk + 1) * kColumns, right);
-      draw_block(drawing, outer, inner, left, right, chunk * kColumns, blocks[block_row + chunk]);
+      draw_block(drawing, outer, inner, row, chunk * kColumns, blocks[block_row + chunk]);
     }
   }
 }
@@ -193,9 +200,12 @@ Score ViewCover::bound(std::size_t block) const {
   return sum > 0 ? Score(sum * kRounding) + kRows * kColumns : 0;
 }
 
-std::uint16_t ViewCover::possible(std::size_t block, PixelTile tile) const {
+std::uint16_t ViewCover::possible(PixelTile tile) const {
   constexpr int kSide = PixelTile::kSide;
-  const std::uint32_t* rows = blocks_[block].possible + tile.row * kSide % kRows;
+  const int chunk = tile.column * kSide / kColumns - first_chunk_,
+            group = tile.row * kSide / kRows - first_group_;
+  const std::uint32_t* rows =
+      blocks_[std::size_t(group * chunks_ + chunk)].possible + tile.row * kSide % kRows;
   const int shift = tile.column * kSide % kColumns;
   unsigned bits = 0;
   for (int i = 0; i < kSide; ++i) bits |= (rows[i] >> shift & 0xFu) << (kSide * i);

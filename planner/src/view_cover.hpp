@@ -41,8 +41,8 @@ class ViewCover {
   bool empty_block(std::size_t block) const;
   Score bound(std::size_t block) const;
 
-  /// One bit for each pixel of a tile in a block: whether it may show a face.
-  std::uint16_t possible(std::size_t block, PixelTile tile) const;
+  /// One bit for each pixel of a tile among the columns and rows: whether it may show a face.
+  std::uint16_t possible(PixelTile tile) const;
 
   /// The tiles of a block that may show a face: at most 32.
   std::span<const PixelTile> tiles(std::size_t block, std::span<PixelTile, 32> room) const;

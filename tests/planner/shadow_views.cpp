@@ -26,9 +26,12 @@ PinholeCamera shadow_view_anywhere(Random& random, const PlanningScene& scene, i
   const double distance[] = {0.001, 0.02, 0.05, 0.15, 0.3, 0.5, 0.9};
   Eigen::Vector3d eye = target + distance[random.below(7)] * direction;
   switch (random.below(8)) {
-    case 0:  // along the faces, in the plane of some of them
+    case 0: {  // along the faces, in the plane of some of them, or a hair off it
+      const double off_m[] = {0, 0, 1e-6, -3e-6, 1e-5, -2e-5, 1e-4, -3e-4};
       eye.z() = scene.grid().geometry().corner({0, 0, int(random.below(8))}).z();
+      eye.z() += off_m[random.below(8)];
       break;
+    }
     case 1:  // straight down: pixels' rays and faces are parallel
       eye = target + Eigen::Vector3d(0, 0, distance[2 + random.below(5)]);
       break;

@@ -141,7 +141,7 @@ TEST_CASE("on random workcells a score is the sum over pixels, and a look tells 
       CHECK(std::abs(double(score) * 0x1p-35 - plain.score) < 1e-6 * plain.score + 1e-6);
       CHECK(scorer.terms(view)[0].value == plain.pixels);
       CHECK(scorer.upper_bound(view) >= score);
-      const ShadowSight sight = scorer.look(view);
+      const ShadowSight sight = scorer.look(view, std::nullopt);
       CHECK(sight.score == score);
       CHECK(sight.bounds.has_value() == (plain.right >= 0));
       if (sight.bounds) {
@@ -165,8 +165,8 @@ TEST_CASE("a view is scored by a small image of its own field of view") {
   const PinholeCamera large = view_at({2.5, 0, 0}, {1, 0, 0}, {640, 480, 600, 600, 319.5, 239.5});
   const PinholeCamera same = view_at({2.5, 0, 0}, {1, 0, 0}, {64, 48, 60, 60, 31.5, 23.5});
   CHECK(exact_score(scorer, large) == exact_score(scorer, same));
-  CHECK(!scorer.look(large).score);
-  CHECK(scorer.look(same).score);
+  CHECK(!scorer.look(large, std::nullopt).score);
+  CHECK(scorer.look(same, std::nullopt).score);
 }
 
 TEST_CASE(
@@ -257,7 +257,7 @@ TEST_CASE("the mesh method says what it cannot do without") {
   const PinholeCamera far(kSmall, other.T_world_cam(), {0.05, 3});
   test::expect_bad_input("views", "the scorer was made for 0.05 to 2 m",
                          [&] { (void)scorer.score(far); });
-  test::expect_bad_input("views", "the scorer was made for", [&] { (void)scorer.look(far); });
+  test::expect_bad_input("views", "the scorer was made for", [&] { (void)scorer.look(far, std::nullopt); });
   std::array<ScoreBound, 2> results;
   test::expect_bad_input("views", "1 views, 1 scores needed and 2 results",
                          [&] { scorer.score(std::array{other}, std::array{Score(0)}, results); });

@@ -83,6 +83,41 @@ TEST_CASE(
   CHECK(without > test::enough(100));
 }
 
+TEST_CASE("what a look expects changes nothing, and what it finds lies on the bounds") {
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  std::size_t looks = 0;
+  for (std::uint32_t seed = 0; seed < test::scene_count(40); ++seed) {
+    CAPTURE(seed);
+    const PlanningScene scene = test::shadow_scene(seed);
+    Random random(seed + 900);
+    std::optional<OutermostShadow> former;
+    for (int i = 0; i < 40; ++i) {
+      CAPTURE(i);
+      const PinholeCamera view = test::shadow_view_anywhere(random, scene, 80, 60);
+      const ShadowScorer scorer(scene, view.range(), 0);
+      const ShadowSight sight = scorer.look(view, std::nullopt);
+      CHECK(sight.bounds == scorer.shadow_bounds(view));
+      OutermostShadow nonsense;
+      for (Eigen::Vector3d& point : nonsense) point = random.in_cube(0.3);
+      nonsense[random.below(4)] = {kNan, 1e300, -1e300};
+      nonsense[random.below(4)] = view.centre();
+      CHECK(scorer.look(view, nonsense).bounds == sight.bounds);
+      CHECK(scorer.look(view, former).bounds == sight.bounds);
+      CHECK(scorer.look(view, sight.outermost).bounds == sight.bounds);
+      REQUIRE(sight.outermost.has_value() == sight.bounds.has_value());
+      former = sight.outermost;
+      if (!sight.bounds) continue;
+      const auto pixel = [&](std::size_t border) { return *view.project((*former)[border]); };
+      CHECK(pixel(0).u == doctest::Approx(sight.bounds->left).scale(1).epsilon(1e-3));
+      CHECK(pixel(1).u == doctest::Approx(sight.bounds->right).scale(1).epsilon(1e-3));
+      CHECK(pixel(2).v == doctest::Approx(sight.bounds->top).scale(1).epsilon(1e-3));
+      CHECK(pixel(3).v == doctest::Approx(sight.bounds->bottom).scale(1).epsilon(1e-3));
+      ++looks;
+    }
+  }
+  CHECK(looks > test::enough(500));
+}
+
 TEST_CASE("a bounded shadow score is below what was needed, and never below the true one") {
   std::size_t exact = 0, bounded = 0;
   for (std::uint32_t seed = 0; seed < test::scene_count(40); ++seed) {

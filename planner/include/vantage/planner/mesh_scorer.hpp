@@ -96,7 +96,8 @@ class VANTAGE_API MeshScorer final : public ViewScorer, public ShadowView {
   std::optional<ShadowBounds> shadow_bounds(const PinholeCamera& view) const override;
 
   /// With the score, if the view's image is as wide as those that views are scored by.
-  ShadowSight look(const PinholeCamera& view) const override;
+  ShadowSight look(const PinholeCamera& view,
+                   const std::optional<OutermostShadow>& expected) const override;
 
  private:
   struct Impl;

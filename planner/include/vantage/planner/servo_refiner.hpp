@@ -1,5 +1,7 @@
 #pragma once
 
+#include <Eigen/Core>
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -20,10 +22,14 @@ struct ShadowBounds {
   bool operator==(const ShadowBounds&) const = default;
 };
 
+/// Points of the shadow, world frame, that the four bounds are from.
+using OutermostShadow = std::array<Eigen::Vector3d, 4>;
+
 /// What a look at an image tells.
 struct ShadowSight {
-  std::optional<ShadowBounds> bounds;  ///< nothing if no pixel shows shadow
-  std::optional<Score> score;          ///< the view's exact score, where the look tells it, too
+  std::optional<ShadowBounds> bounds = {};  ///< nothing if no pixel shows shadow
+  std::optional<Score> score = {};  ///< the view's exact score, where the look tells it, too
+  std::optional<OutermostShadow> outermost = {};  ///< where the look knows them
 };
 
 /// What a servo sees: an image on which pixels are shadow or not. Immutable and thread-safe.
@@ -35,9 +41,13 @@ class VANTAGE_API ShadowView {
   /// within the camera's range.
   virtual std::optional<ShadowBounds> shadow_bounds(const PinholeCamera& view) const = 0;
 
-  /// For methods whose scores are made of the very image that the servo looks at.
-  virtual ShadowSight look(const PinholeCamera& view) const {
-    return {shadow_bounds(view), std::nullopt};
+  /// The bounds, and what else the look tells: the score, for methods whose scores are made of the
+  /// very image that the servo looks at.
+  /// @param expected where a look from close by, if there was one, found the shadow's outermost
+  /// points. It may spare work, and changes no bounds.
+  virtual ShadowSight look(const PinholeCamera& view,
+                           const std::optional<OutermostShadow>& /*expected*/) const {
+    return {.bounds = shadow_bounds(view)};
   }
 };
 

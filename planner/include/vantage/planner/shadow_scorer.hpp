@@ -32,6 +32,8 @@ class VANTAGE_API ShadowScorer final : public ViewScorer, public ShadowView {
   using ViewScorer::score;
   std::vector<ScoreTerm> terms(const PinholeCamera& view) const override;
   std::optional<ShadowBounds> shadow_bounds(const PinholeCamera& view) const override;
+  ShadowSight look(const PinholeCamera& view,
+                   const std::optional<OutermostShadow>& expected) const override;
 
  private:
   struct Impl;
