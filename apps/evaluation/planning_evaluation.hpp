@@ -55,7 +55,7 @@ struct SetEvaluation {
 /// A workcell, as some of its cameras see it.
 struct SceneEvaluation {
   std::string
-      name;  ///< e.g. "wall:side"; with the depth images' kind, "foreign_objects:front+ideal"
+      name;  ///< e.g. "wall:front"; with the depth images' kind, "foreign_objects:front+ideal"
   std::string workcell;
   std::vector<std::string> cameras{};
   std::string depth = "none";  ///< "ideal", "noisy": depth images as well as known objects

@@ -5,7 +5,8 @@
 namespace vantage {
 namespace {
 
-constexpr std::string_view kWallSide = "wall:side", kWallTop = "wall:top",
+// The Wall has two cameras (4.1.1): "front", which chapter 9 calls the side one, and "top".
+constexpr std::string_view kWallSide = "wall:front", kWallTop = "wall:top",
                            kPillars = "two_pillars:front", kCorridor = "corridor:left,right";
 
 constexpr std::array<ThesisPick, 12> kPicks{{

@@ -8,7 +8,7 @@ namespace {
 void add_input_options(CLI::App& verb, PlanningArguments& arguments) {
   verb.add_option("scenes", arguments.scenes,
                   "Workcell files, each with the cameras to use and the depth images that planning "
-                  "gets: FILE[:CAMERA,...][+none|+ideal|+noisy], e.g. wall.yaml:side "
+                  "gets: FILE[:CAMERA,...][+none|+ideal|+noisy], e.g. wall.yaml:front "
                   "corridor.yaml:left,right foreign_objects.yaml+ideal")
       ->required();
   verb.add_option("--depth", arguments.depth,

@@ -35,7 +35,7 @@ PlanningCellName planning_cell_name(const std::string& argument);
 
 /// A simulated cell, what planning is told of it, and what truly stands there.
 struct PlanningCell {
-  std::string name;  ///< the workcell's file without its ending, and the cameras, e.g. "wall:side"
+  std::string name;  ///< the workcell's file without its ending, and the cameras, e.g. "wall:front"
   std::string depth;
   WorldModel world;  ///< what the cameras could recognise, at its true pose
   /// The same with depth images, for methods that cannot do without: those of `world`, or if it has

@@ -45,12 +45,12 @@ Pose aimed(const Eigen::Vector3d& eye, const Eigen::Vector3d& direction, const I
   return Pose::from_rotation(axis.rotation() * turn.toRotationMatrix(), eye);
 }
 
-/// Whether the camera does not move, and turns by less than half a pixel, to which bounds are
-/// known.
+/// Whether the camera does not move, and turns by less than a pixel: bounds are known to half a
+/// pixel each, so that the middles of two looks at the same may differ by as much.
 bool stays(const Pose& a, const Pose& b, const Intrinsics& k) {
-  const double half_pixel = 0.5 / std::max(k.fx, k.fy);
+  const double pixel = 1 / std::max(k.fx, k.fy);
   return (a.translation() - b.translation()).norm() < 1e-9 &&
-         Eigen::AngleAxisd(a.rotation().transpose() * b.rotation()).angle() < half_pixel;
+         Eigen::AngleAxisd(a.rotation().transpose() * b.rotation()).angle() < pixel;
 }
 
 }  // namespace

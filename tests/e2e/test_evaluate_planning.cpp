@@ -31,13 +31,13 @@ const json& of_method(const json& list, const std::string& method) {
 TEST_CASE("evaluate planning: tables, planning.json, charts and a page") {
   const test::TemporaryFolder folder;
   const auto result = run_vantage(
-      "evaluate planning" + scene("wall", ":side") + scene("foreign_objects", "+ideal") +
+      "evaluate planning" + scene("wall", ":front") + scene("foreign_objects", "+ideal") +
       " --candidates production --methods shadowD6 --servo 2 --voxel-size 0.02 -o" +
       quoted(folder / "out"));
   CAPTURE(result.err);
   REQUIRE(result.exit_code == 0);
   for (const char* part :
-       {"wall:side (thesis: Wall, side)", "foreign_objects:front+ideal",
+       {"wall:front (thesis: Wall, side)", "foreign_objects:front+ideal",
         "Methods compared: production set, 40 views, servo 2, 2 polished", "thesis: table 9.1"}) {
     CAPTURE(part);
     CHECK(result.out.find(part) != std::string::npos);
@@ -100,7 +100,7 @@ TEST_CASE("evaluate planning refuses what it cannot evaluate, and writes nothing
 TEST_CASE("Ctrl-C ends an evaluation of planning with 130, and writes nothing") {
   const test::TemporaryFolder folder;
   const auto result = run_vantage(
-      "evaluate planning" + scene("wall", ":side") + " --repeat 1000 -o" + quoted(folder / "out"),
+      "evaluate planning" + scene("wall", ":front") + " --repeat 1000 -o" + quoted(folder / "out"),
       "timeout --foreground --preserve-status -s INT 2");
   CHECK(result.exit_code == 130);
   CHECK(result.out.empty());

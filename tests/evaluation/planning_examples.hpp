@@ -12,7 +12,7 @@ inline MethodRun run_with(const std::string& method, double vox_m3, double true_
 
 /// Like the thesis' first scene, with round numbers: a voxel of 10 mm is 1 cm³.
 inline SceneEvaluation wall_scene() {
-  SceneEvaluation scene{.name = "wall:side",
+  SceneEvaluation scene{.name = "wall:front",
                         .workcell = "wall.yaml",
                         .cameras = {"side"},
                         .voxel_size_m = 0.01,

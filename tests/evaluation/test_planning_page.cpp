@@ -43,7 +43,7 @@ TEST_CASE("numbers as people read them") {
 TEST_CASE("table 9.5: ours, and the thesis' beside it") {
   const ReportTable table = comparison_table(two_scenes(), "full");
   CHECK(has(table.title, "full set, 34,225 views, servo 5"));
-  CHECK(table.rows[0].cells == Cells{"wall:side (thesis: Wall, side)"});
+  CHECK(table.rows[0].cells == Cells{"wall:front (thesis: Wall, side)"});
   CHECK(table.rows[1].cells == Cells{"voxel", "2", "800.0", "100.0 %", "2 s", "700.0", "200.0",
                                      "943", "100.0 %", "234.8 s"});
   CHECK(table.rows[2].cells == Cells{"shadowD6", "2", "760.0", "95.0 %", "10 s", "800.0", "100.0",

@@ -62,7 +62,7 @@ TEST_CASE("an axis is logarithmic where that is asked for, however alike values 
 
 TEST_CASE("a chart has a mark and a number for every pick, and hollow ones for the thesis'") {
   const std::string svg = run_time_plot_svg(
-      "Title", {"wall:side", "a & b"},
+      "Title", {"wall:front", "a & b"},
       {{"voxel", {{0, 0.5, 1}, {1, 0.6, 1}}, {{0, 234.8, 1}}}, {"shadowD6", {{0, 2, 0.9}}, {}}});
   CHECK(svg.starts_with("<svg xmlns="));
   CHECK(svg.ends_with("</svg>\n"));
@@ -70,7 +70,7 @@ TEST_CASE("a chart has a mark and a number for every pick, and hollow ones for t
   CHECK(count(svg, "fill=\"#fff\" stroke=") == 1);
   CHECK(count(svg, ">1</text>") == 3 + 1);  // and the axis'
   CHECK(count(svg, ">2</text>") == 1);
-  CHECK(count(svg, "1  wall:side</text>") == 1);
+  CHECK(count(svg, "1  wall:front</text>") == 1);
   CHECK(count(svg, "2  a &amp; b</text>") == 1);
   CHECK(count(svg, "Hollow: the thesis") == 1);
   for (const char* never : {"nan", "inf", "href", "<script"}) CHECK(count(svg, never) == 0);

@@ -73,7 +73,7 @@ TEST_CASE("where the thesis prints both, the servo's best step is the method's r
 
 TEST_CASE("what the thesis does not have is null") {
   CHECK(thesis_pick("castle:front", "voxel") == nullptr);
-  CHECK(thesis_pick("wall:side", "light") == nullptr);
+  CHECK(thesis_pick("wall:front", "light") == nullptr);
   CHECK(thesis_mean("light") == nullptr);
   CHECK(thesis_servo("wall:top", "shadowD6") == nullptr);
 }

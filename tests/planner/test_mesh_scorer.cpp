@@ -257,7 +257,8 @@ TEST_CASE("the mesh method says what it cannot do without") {
   const PinholeCamera far(kSmall, other.T_world_cam(), {0.05, 3});
   test::expect_bad_input("views", "the scorer was made for 0.05 to 2 m",
                          [&] { (void)scorer.score(far); });
-  test::expect_bad_input("views", "the scorer was made for", [&] { (void)scorer.look(far, std::nullopt); });
+  test::expect_bad_input("views", "the scorer was made for",
+                         [&] { (void)scorer.look(far, std::nullopt); });
   std::array<ScoreBound, 2> results;
   test::expect_bad_input("views", "1 views, 1 scores needed and 2 results",
                          [&] { scorer.score(std::array{other}, std::array{Score(0)}, results); });

@@ -88,7 +88,7 @@ class VANTAGE_API ServoRefiner {
                const ServoOptions& options);
 
   /// The candidate itself and the poses after each iteration, all of them feasible. It ends early
-  /// where there is no shadow on the image, where the camera stays (to half a pixel), and where
+  /// where there is no shadow on the image, where the camera stays (to a pixel), and where
   /// every way to go on is forbidden.
   std::vector<ServoStep> path(const Pose& T_world_cam) const;
 
