@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "vantage/raycore/box_projector.hpp"
-#include "vantage/raycore/multiversion.hpp"
 
 namespace vantage::detail {
 namespace {
@@ -31,152 +30,85 @@ double farthest_tangent(const Intrinsics& k) {
   return x + y;
 }
 
-/// A camera as plain numbers.
-struct Projection {
-  double r[9], eye[3];  ///< world to camera
-  double fx, fy, cx, cy;
-};
-
-struct PointLanes {
-  const double *x, *y, *z;
-};
-
-VANTAGE_MULTIVERSION
-void project_points(const Projection& p, const PointLanes& points, std::size_t count,
-                    double* __restrict u, double* __restrict v, double* __restrict depth) {
-  for (std::size_t i = 0; i < count; ++i) {
-    const double dx = points.x[i] - p.eye[0], dy = points.y[i] - p.eye[1],
-                 dz = points.z[i] - p.eye[2];
-    const double x = p.r[0] * dx + p.r[1] * dy + p.r[2] * dz;
-    const double y = p.r[3] * dx + p.r[4] * dy + p.r[5] * dz;
-    const double z = p.r[6] * dx + p.r[7] * dy + p.r[8] * dz;
-    const double inverse = 1 / z;
-    u[i] = p.fx * x * inverse + p.cx;
-    v[i] = p.fy * y * inverse + p.cy;
-    depth[i] = z;
-  }
-}
-
-/// Where eight boxes' corners are on the image at most. Pixels are of no use where `nearest` is not
-/// positive.
-struct BoxImages {
-  double left[kBoxLanes], right[kBoxLanes], top[kBoxLanes], bottom[kBoxLanes];
-  double nearest[kBoxLanes], farthest[kBoxLanes];
-};
-
-struct BoxPointers {
-  const double *x, *y, *z, *half_x, *half_y, *half_z;
-};
-
-VANTAGE_MULTIVERSION
-void project_boxes(const Projection& p, const BoxPointers& boxes, BoxImages& images) {
-  for (std::size_t i = 0; i < kBoxLanes; ++i) {
-    images.left[i] = images.top[i] = images.nearest[i] = 1e300;
-    images.right[i] = images.bottom[i] = images.farthest[i] = -1e300;
-  }
-  for (int corner = 0; corner < 8; ++corner) {
-    const double sx = (corner & 1) != 0 ? 1 : -1, sy = (corner & 2) != 0 ? 1 : -1,
-                 sz = (corner & 4) != 0 ? 1 : -1;
-    for (std::size_t i = 0; i < kBoxLanes; ++i) {
-      const double dx = boxes.x[i] + sx * boxes.half_x[i] - p.eye[0],
-                   dy = boxes.y[i] + sy * boxes.half_y[i] - p.eye[1],
-                   dz = boxes.z[i] + sz * boxes.half_z[i] - p.eye[2];
-      const double z = p.r[6] * dx + p.r[7] * dy + p.r[8] * dz, inverse = 1 / z;
-      const double u = p.fx * (p.r[0] * dx + p.r[1] * dy + p.r[2] * dz) * inverse + p.cx;
-      const double v = p.fy * (p.r[3] * dx + p.r[4] * dy + p.r[5] * dz) * inverse + p.cy;
-      images.left[i] = u < images.left[i] ? u : images.left[i];
-      images.right[i] = u > images.right[i] ? u : images.right[i];
-      images.top[i] = v < images.top[i] ? v : images.top[i];
-      images.bottom[i] = v > images.bottom[i] ? v : images.bottom[i];
-      images.nearest[i] = z < images.nearest[i] ? z : images.nearest[i];
-      images.farthest[i] = z > images.farthest[i] ? z : images.farthest[i];
-    }
-  }
-}
-
-Projection projection_of(const Intrinsics& k, const Eigen::Matrix3d& R_cam_world,
-                         const Eigen::Vector3d& eye) {
-  Projection p{{}, {eye.x(), eye.y(), eye.z()}, k.fx, k.fy, k.cx, k.cy};
-  for (int i = 0; i < 9; ++i) p.r[i] = R_cam_world(i / 3, i % 3);
-  return p;
-}
-
 }  // namespace
 
-FaceProjector::FaceProjector(const PinholeCamera& camera, const FlatFaces& faces)
-    : FaceProjector(camera, faces,
-                    {{0, camera.intrinsics().width - 1},
-                     {0, camera.intrinsics().height - 1},
-                     camera.range().far_m}) {}
+FaceProjector::Window FaceProjector::whole_image(const PinholeCamera& camera) {
+  return {{0, camera.intrinsics().width - 1},
+          {0, camera.intrinsics().height - 1},
+          camera.range().far_m};
+}
+
+double FaceProjector::margin_m(const PinholeCamera& camera, const FlatFaces& faces) {
+  return kRoundingOfRays *
+         std::max(faces.largest_coordinate_m, camera.centre().cwiseAbs().maxCoeff());
+}
 
 FaceProjector::FaceProjector(const PinholeCamera& camera, const FlatFaces& faces,
-                             const Window& window)
+                             const Window& window, bool from_inside)
     : faces_(faces),
       image_(camera.intrinsics()),
       window_(window),
+      projection_(camera),
       centre_(camera.centre()),
       R_cam_world_(camera.T_world_cam().rotation().transpose()),
       per_fx_(1 / image_.fx),
       per_fy_(1 / image_.fy),
-      margin_m_(kRoundingOfRays *
-                std::max(faces.largest_coordinate_m, camera.centre().cwiseAbs().maxCoeff())),
+      margin_m_(margin_m(camera, faces)),
       // du = fx (dx - x/z dz) / z, and the same for v.
       pixels_per_radian_(std::max(image_.fx, image_.fy) * 2 * (1 + farthest_tangent(image_))),
       clip_m_(
           std::max(camera.range().near_m * (1 - 1e-3) - margin_m_, 0.5 * camera.range().near_m)),
-      lowest_m_(-margin_m_ / kFlattest) {
+      lowest_m_(from_inside ? -1e300 : -margin_m_ / kFlattest) {
   find_groups();
 }
 
-void FaceProjector::see_backs() {
-  lowest_m_ = -1e300;
-  for (GroupInView& group : groups_) group.facing = true;
-}
-
 void FaceProjector::find_groups() {
-  const Projection projection = projection_of(image_, R_cam_world_, centre_);
-  const BoxLanes& boxes = faces_.boxes;
   BoxImages images;
-  std::uint32_t most_corners = 0;
+  std::size_t projected = ~std::size_t(0);  // so many eights of boxes before those in `images`
   for (std::uint32_t g = 0; g < faces_.groups.size(); ++g) {
-    const std::size_t lane = g % kBoxLanes;
-    if (lane == 0) {
-      project_boxes(projection,
-                    {&boxes.centre_x[g], &boxes.centre_y[g], &boxes.centre_z[g], &boxes.half_x[g],
-                     &boxes.half_y[g], &boxes.half_z[g]},
-                    images);
-    }
     const FlatFaces::Group& group = faces_.groups[g];
-    const double rounding = worst_rounding(group);
-    GroupInView seen{
-        .index = g,
-        .columns = window_.columns,
-        .rows = window_.rows,
-        .farthest_m = images.farthest[lane] / (1 - std::min(rounding, kFlattest)) + margin_m_,
-        .grazing = rounding > kFlattest,
-        .facing = !group.parallel ||
-                  faces_.list[group.first_face].normal.dot(centre_) - group.lowest_m >= lowest_m_};
+    if (group.parallel && along_m(group) - group.lowest_m < lowest_m_) continue;
+    if (projected != g / kBoxLanes) {
+      projected = g / kBoxLanes;
+      project_boxes(projection_, faces_.boxes, projected * kBoxLanes, images);
+    }
+    const std::size_t lane = g % kBoxLanes;
     if (images.farthest[lane] < clip_m_ || !in_depth(images.nearest[lane])) continue;
+    GroupInView seen{g, window_.columns, window_.rows};
     if (images.nearest[lane] > clip_m_) {
       const double margin = margin_px(images.nearest[lane]);
       seen.columns = whole(images.left[lane] - margin, images.right[lane] + margin, seen.columns);
       seen.rows = whole(images.top[lane] - margin, images.bottom[lane] + margin, seen.rows);
     }
-    if (seen.columns.last < 0 || seen.rows.last < 0) continue;
-    farthest_m_ = std::max(farthest_m_, seen.farthest_m);
-    most_corners = std::max(most_corners, group.last_corner - group.first_corner);
-    groups_.push_back(seen);
+    if (seen.columns.last >= 0 && seen.rows.last >= 0) groups_.push_back(seen);
   }
-  u_.reset(new double[most_corners]);
-  v_.reset(new double[most_corners]);
-  depth_.reset(new double[most_corners]);
+}
+
+double FaceProjector::farthest_m() const {
+  const BoxLanes& boxes = faces_.boxes;
+  const Eigen::Vector3d axis = R_cam_world_.row(2), reach = axis.cwiseAbs();
+  double farthest_m = 0;
+  for (std::size_t i = 0; i < faces_.groups.size(); ++i) {
+    const double middle_m = axis.dot(
+        Eigen::Vector3d(boxes.centre_x[i], boxes.centre_y[i], boxes.centre_z[i]) - centre_);
+    const double depth_m =
+        middle_m + reach.dot(Eigen::Vector3d(boxes.half_x[i], boxes.half_y[i], boxes.half_z[i]));
+    if (depth_m <= 0) continue;
+    const double rounding = std::min(worst_rounding(faces_.groups[i]), kFlattest);
+    farthest_m = std::max(farthest_m, depth_m / (1 - rounding));
+  }
+  return farthest_m + margin_m_;
+}
+
+/// How far the camera is along the normal of a group whose faces are parallel.
+double FaceProjector::along_m(const FlatFaces::Group& group) const {
+  return faces_.list[group.first_face].normal.dot(centre_);
 }
 
 /// By which share at most rounding moves depths on a group's faces, but for those that are grazing
-/// anyway: 1 or more for these.
+/// anyway.
 double FaceProjector::worst_rounding(const FlatFaces::Group& group) const {
-  const FlatFaces::Face& first = faces_.list[group.first_face];
-  const double along_m = first.normal.dot(centre_);
+  const double along_m = this->along_m(group);
   const double off_m = std::max(group.lowest_m - along_m, along_m - group.highest_m);
   if (group.parallel && off_m > 0) return margin_m_ / off_m;
   double nearest_m = 1e300;
@@ -193,9 +125,8 @@ double FaceProjector::margin_px(double nearest_m) const {
 void FaceProjector::load_corners(const FlatFaces::Group& group) {
   loaded_ = group.first_corner;
   outwards_ = R_cam_world_ * faces_.list[group.first_face].normal;
-  const PointLanes points{&faces_.x[loaded_], &faces_.y[loaded_], &faces_.z[loaded_]};
-  project_points(projection_of(image_, R_cam_world_, centre_), points,
-                 group.last_corner - group.first_corner, u_.get(), v_.get(), depth_.get());
+  project_points(projection_, {&faces_.x[loaded_], &faces_.y[loaded_], &faces_.z[loaded_]},
+                 group.last_corner - group.first_corner, u_.data(), v_.data(), depth_.data());
 }
 
 bool FaceProjector::project(const FlatFaces::Face& face, FacePolygon& polygon) const {
@@ -222,7 +153,7 @@ bool FaceProjector::project_corners(const FlatFaces::Face& face, Corners& corner
                                     FacePolygon& polygon) const {
   double z0 = 1e300, z1 = -1e300;
   for (std::size_t i = 0; i < 4; ++i) {
-    const std::uint32_t c = face.corners[i] - loaded_;
+    const std::size_t c = face.corners[i] - loaded_;
     corners.u[i] = u_[c], corners.v[i] = v_[c];
     z0 = std::min(z0, depth_[c]), z1 = std::max(z1, depth_[c]);
   }
@@ -297,11 +228,11 @@ void FaceProjector::set_depth(const FlatFaces::Face& face, const Corners& corner
   // A point at depth z in the direction (x, y, 1) is on the plane: z · normal · (x, y, 1) =
   // distance.
   const double height_m = this->height_m(face), distance_m = std::abs(height_m);
-  const double rounding = margin_m_ / std::max(distance_m, 1e-30);
+  const double per_distance = 1 / std::max(distance_m, 1e-30), rounding = margin_m_ * per_distance;
   polygon.grazing = rounding > kFlattest;
   if (polygon.grazing) polygon.certain_rows = {0, -1};
   const double towards = height_m > 0 ? -1 : 1;
-  const double scale = polygon.grazing ? 0 : towards * (1 - rounding) / distance_m;
+  const double scale = polygon.grazing ? 0 : towards * (1 - rounding) * per_distance;
   const double b = scale * outwards_.x() * per_fx_, c = scale * outwards_.y() * per_fy_;
   const double a = scale * outwards_.z() - b * image_.cx - c * image_.cy;
   const double float_error =

@@ -1,11 +1,12 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cstdint>
-#include <memory>
 #include <vector>
 
 #include "flat_faces.hpp"
+#include "lane_projection.hpp"
 #include "vantage/raycore/camera.hpp"
 
 namespace vantage::detail {
@@ -48,35 +49,35 @@ class FaceProjector {
     double farthest_m;
   };
 
-  /// A group of faces that the window's rays may meet, from whatever side.
+  static Window whole_image(const PinholeCamera& camera);
+
+  /// A group of faces, some of which may look at the camera, that the window's rays may meet.
   struct GroupInView {
     std::uint32_t index;
     PixelSpan columns, rows;  ///< beyond them, no ray meets one of its faces
-    double farthest_m;        ///< nor farther than this, unless one is grazing
-    bool grazing;
-    bool facing;  ///< some of its faces may look at the camera
   };
 
   /// @param faces have to outlive this.
-  FaceProjector(const PinholeCamera& camera, const FlatFaces& faces);
-  FaceProjector(const PinholeCamera& camera, const FlatFaces& faces, const Window& window);
+  /// @param from_inside faces are seen from behind, too: the camera is in what they surround.
+  FaceProjector(const PinholeCamera& camera, const FlatFaces& faces, const Window& window,
+                bool from_inside = false);
 
   /// How far rounding may move a ray, metres.
   double margin_m() const { return margin_m_; }
-  const std::vector<GroupInView>& groups() const { return groups_; }
-  /// None of the window's rays meets a face farther than this, from whatever side, unless it is
-  /// grazing.
-  double farthest_m() const { return farthest_m_; }
+  static double margin_m(const PinholeCamera& camera, const FlatFaces& faces);
 
-  /// From now on, faces are seen from behind, too: the camera is inside of what they surround.
-  void see_backs();
+  /// In the order of the faces.
+  const std::vector<GroupInView>& groups() const { return groups_; }
+
+  /// No ray meets a face farther than this, in the window or beyond, from whatever side, unless it
+  /// is grazing.
+  double farthest_m() const;
 
   /// Calls `visit(face)` for those faces of a group that may look at the camera: all that `project`
   /// and `project_outline` may be asked for until this is called again.
   template <class Visit>
   void for_each_face(const GroupInView& seen, const Visit& visit) {
     const FlatFaces::Group& group = faces_.groups[seen.index];
-    if (!seen.facing) return;
     load_corners(group);
     for (std::uint32_t i = group.first_face; i < group.last_face; ++i) {
       const FlatFaces::Face& face = faces_.list[i];
@@ -117,6 +118,7 @@ class FaceProjector {
   }
   /// Pixels by which rounding may move rays to what is not nearer than this.
   double margin_px(double nearest_m) const;
+  double along_m(const FlatFaces::Group& group) const;
   double worst_rounding(const FlatFaces::Group& group) const;
   void load_corners(const FlatFaces::Group& group);
   double height_m(const FlatFaces::Face& face) const {
@@ -131,6 +133,7 @@ class FaceProjector {
   const FlatFaces& faces_;
   Intrinsics image_;
   Window window_;
+  Projection projection_;
   Eigen::Vector3d centre_;
   Eigen::Matrix3d R_cam_world_;
   double per_fx_, per_fy_;
@@ -138,14 +141,13 @@ class FaceProjector {
   double pixels_per_radian_;  ///< at most, anywhere on the image
   double clip_m_;             ///< what is nearer does not count
   double lowest_m_;           ///< faces that are lower look away
-  double farthest_m_ = 0;
   std::vector<GroupInView> groups_;
 
   // Of the corners of one group, from `loaded_` on. Pixels are of no use where the depth is not
   // above `clip_m_`.
   std::uint32_t loaded_ = 0;
   Eigen::Vector3d outwards_;  ///< the normal, in the camera's frame, of the face that is visited
-  std::unique_ptr<double[]> u_, v_, depth_;
+  std::array<double, FlatFaces::kMostCorners> u_, v_, depth_;
 };
 
 }  // namespace vantage::detail

@@ -9,8 +9,7 @@ namespace vantage::detail {
 namespace {
 
 constexpr std::size_t kMostTriangles = 10'000;  // of an object
-constexpr std::size_t kMostFaces = 1000;        // of a scene
-constexpr std::size_t kMostInGroup = 8;
+constexpr std::size_t kMostOccluders = 1000;    // of a scene
 
 FaceCorners face_of(const std::array<Eigen::Vector3d, 4>& c) {
   return {c, (c[1] - c[0]).cross(c[2] - c[0]).stableNormalized()};
@@ -65,7 +64,7 @@ FlatFaces::FlatFaces(const std::vector<FaceCorners>& faces) {
                    [&](std::uint32_t a, std::uint32_t b) { return side(a) < side(b); });
   for (std::size_t first = 0; first < order.size();) {
     std::size_t last = first;
-    while (last < std::min(first + kMostInGroup, order.size()) &&
+    while (last < std::min(first + kMostFaces, order.size()) &&
            side(order[last]) == side(order[first])) {
       ++last;
     }
@@ -125,7 +124,7 @@ FlatFaces largest_faces_of(const Scene& scene) {
   std::stable_sort(sized.begin(), sized.end(),
                    [](const SizedFace& a, const SizedFace& b) { return a.area_m2 > b.area_m2; });
   std::vector<FaceCorners> faces;
-  for (std::size_t i = 0; i < std::min(sized.size(), kMostFaces); ++i) {
+  for (std::size_t i = 0; i < std::min(sized.size(), kMostOccluders); ++i) {
     faces.push_back(sized[i].face);
   }
   return FlatFaces(faces);

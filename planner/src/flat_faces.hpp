@@ -28,6 +28,9 @@ struct FlatFaces {
     double offset_m;  ///< of its plane: normal · p
   };
 
+  /// Of a group.
+  static constexpr std::size_t kMostFaces = 8, kMostCorners = 4 * kMostFaces;
+
   /// Some faces [first, last) and their corners, which no other group has.
   struct Group {
     std::uint32_t first_face, last_face, first_corner, last_corner;

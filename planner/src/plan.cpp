@@ -1,6 +1,7 @@
 #include "vantage/planner/plan.hpp"
 
 #include <fmt/format.h>
+#include <tbb/parallel_for.h>
 
 #include <chrono>
 #include <cmath>
@@ -48,9 +49,12 @@ void search(const WorldModel& world, const std::vector<ViewCandidate>& views, Pl
   if (plan.stopped == StopReason::none && !detail::polish(tools, plan.ranked, stop)) {
     plan.stopped = stop.reason();
   }
-  for (RankedView& view : plan.ranked) {
-    view.revealed_voxels = tools.voxels().score(tools.camera().moved_to(view.T_world_cam)).score;
-  }
+  tbb::parallel_for(std::size_t(0), plan.ranked.size(), [&](std::size_t i) {
+    RankedView& view = plan.ranked[i];
+    const PinholeCamera camera = tools.camera().moved_to(view.T_world_cam);
+    view.revealed_voxels =
+        tools.by_voxels() ? view.score : tools.voxels().ViewScorer::score(camera).score;
+  });
   plan.trace = detail::trace(tools, plan, plan.candidates[plan.ranked.front().candidate], stop);
   detail::add_view(tools.voxels(), tools.camera(), plan.ranked.front(), plan);
   if (plan.request.views.most > 1) detail::add_next_views(world, tools, plan, stop);

@@ -1,7 +1,8 @@
 #include "vantage/planner/planning_scene.hpp"
 
-#include "shadow_middle.hpp"
+#include <tbb/parallel_invoke.h>
 
+#include "shadow_middle.hpp"
 #include "vantage/raycore/scene_builder.hpp"
 #include "vantage/volume/classify.hpp"
 
@@ -9,14 +10,19 @@ namespace vantage {
 
 PlanningScene::PlanningScene(const WorldModel& world, std::shared_ptr<const StateGrid> grid,
                              OccluderMode mode)
-    : grid_(std::move(grid)),
-      occluders_(occluder_scene(world, *grid_, mode)),
-      shadow_faces_(std::make_shared<const TriangleMesh>(grid_->faces(VoxelState::shadow))),
-      shadow_centres_(std::make_shared<const Points>(grid_->centres(VoxelState::shadow))) {
-  SceneBuilder builder;
-  add_occluders(world, *grid_, mode, builder);
-  builder.add_mesh(*shadow_faces_);
-  surfaces_ = builder.build();
+    : grid_(std::move(grid)) {
+  tbb::parallel_invoke(
+      [&] {
+        occluders_ = occluder_scene(world, *grid_, mode);
+        shadow_centres_ = std::make_shared<const Points>(grid_->centres(VoxelState::shadow));
+      },
+      [&] {
+        shadow_faces_ = std::make_shared<const TriangleMesh>(grid_->faces(VoxelState::shadow));
+        SceneBuilder builder;
+        add_occluders(world, *grid_, mode, builder);
+        builder.add_mesh(*shadow_faces_);
+        surfaces_ = builder.build();
+      });
 }
 
 Eigen::Vector3d PlanningScene::middle_of_shadow() const {

@@ -91,13 +91,19 @@ ServoRefiner::ServoRefiner(std::shared_ptr<const ShadowView> view,
       options_(options) {}
 
 std::vector<ServoStep> ServoRefiner::path(const Pose& T_world_cam) const {
+  std::optional<OutermostShadow> outermost;
+  return path(T_world_cam, outermost);
+}
+
+std::vector<ServoStep> ServoRefiner::path(const Pose& T_world_cam,
+                                          std::optional<OutermostShadow>& outermost) const {
   std::vector<ServoStep> steps = {{T_world_cam, ServoMove::start}};
-  ShadowSight sight;
   for (int i = 0; i < options_.iterations; ++i) {
     const PinholeCamera camera = camera_.moved_to(steps.back().T_world_cam);
-    sight = view_->look(camera, sight.outermost);
+    const ShadowSight sight = view_->look(camera, outermost);
     steps.back().score = sight.score;
     if (!sight.bounds) break;
+    outermost = sight.outermost;
     const std::optional<ServoStep> next = step(camera, *sight.bounds);
     if (!next || stays(next->T_world_cam, steps.back().T_world_cam, camera.intrinsics())) break;
     steps.push_back(*next);

@@ -64,7 +64,6 @@ class BorderScan {
       columns_ = {0, view_.intrinsics().width - 1}, rows_ = {0, view_.intrinsics().height - 1};
     } else {
       for (const Group& group : projector_.groups()) {
-        if (!group.facing) continue;
         waiting_.push_back(&group);
         widen(columns_, group.columns), widen(rows_, group.rows);
       }

@@ -52,9 +52,9 @@ void widen(PixelSpan& all, const PixelSpan& one) {
 
 FaceProjector project_shadow(const PinholeCamera& view, const ShadowFaces& all,
                              const StateGrid& grid) {
-  FaceProjector projector(view, all.shadow);
-  if (in_shadow(grid, view.centre(), projector.margin_m())) projector.see_backs();
-  return projector;
+  const double margin_m = FaceProjector::margin_m(view, all.shadow);
+  return {view, all.shadow, FaceProjector::whole_image(view),
+          in_shadow(grid, view.centre(), margin_m)};
 }
 
 ShadowInView::ShadowInView(const PinholeCamera& view, const ShadowFaces& all,

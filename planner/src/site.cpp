@@ -42,13 +42,14 @@ std::size_t finished(std::span<const ScoredCandidate> candidates) {
 
 void Site::prepare(const StopToken& stop) {
   outcomes_.resize(range_.last - range_.first);
+  std::optional<OutermostShadow> outermost;
   for (std::size_t c = 0; c < outcomes_.size() && !stop.stop_requested(); ++c) {
     const Pose& pose = candidates_[range_.first + c].T_world_cam;
     outcomes_[c].rejected = tools_->checker->check(pose);
     outcomes_[c].ready = true;
     if (outcomes_[c].rejected != Rejection::none) continue;
     int iteration = 0;
-    for (const ServoStep& step : tools_->path(pose)) {
+    for (const ServoStep& step : tools_->path(pose, outermost)) {
       const PinholeCamera view = tools_->camera.moved_to(step.T_world_cam);
       const ScoreBound bound =
           step.score ? ScoreBound{ScoreBound::Known::exact, *step.score}

@@ -18,9 +18,11 @@ struct SearchTools {
   PinholeCamera camera;
   Utility utility;
 
-  std::vector<ServoStep> path(const Pose& T_world_cam) const {
+  /// @param outermost as of `ServoRefiner::path`.
+  std::vector<ServoStep> path(const Pose& T_world_cam,
+                              std::optional<OutermostShadow>& outermost) const {
     if (servo == nullptr) return {{T_world_cam, ServoMove::start}};
-    return servo->path(T_world_cam);
+    return servo->path(T_world_cam, outermost);
   }
 };
 

@@ -29,26 +29,38 @@ struct Drawing {
   }
 };
 
-/// What a face's pixels count at one column of each row.
+/// What a face's pixels count at the two ends of each row's span.
 struct EndWeights {
-  RowLanes<float> weight;
+  RowLanes<float> first, last;
   RowLanes<std::int32_t> trusted;
 };
 
 [[gnu::always_inline]] inline void find_weights(const Drawing& d, int first_row, int first_column,
-                                                const RowLanes<std::int32_t>& column,
-                                                EndWeights& end) {
-  RowLanes<float> part;
+                                                const RowLanes<std::int32_t>& begin,
+                                                const RowLanes<std::int32_t>& end,
+                                                EndWeights& ends) {
+  const float per_far = d.weight.per_far, least = d.least;
+  RowLanes<float> first, last;  // depth / far, squared again and again
   VANTAGE_EACH_ROW(i) {
-    const float inverse = d.polygon.at_origin +
-                          d.polygon.per_u * float(first_column + column.at[i]) +
-                          d.polygon.per_v * float(first_row + i);
-    end.trusted.at[i] = inverse > d.least;
-    part.at[i] = d.weight.per_far / (inverse > d.least ? inverse : d.least);
-    end.weight.at[i] = d.weight.factor;
+    const float at_row = d.polygon.at_origin + d.polygon.per_v * float(first_row + i);
+    const float p = at_row + d.polygon.per_u * float(first_column + begin.at[i]);
+    const float q = at_row + d.polygon.per_u * float(first_column + end.at[i] - 1);
+    ends.trusted.at[i] = (p > least) & (q > least);
+    first.at[i] = per_far / (p > least ? p : least);
+    last.at[i] = per_far / (q > least ? q : least);
+    ends.first.at[i] = ends.last.at[i] = d.weight.factor;
   }
-  for (int factor = 0; factor < d.weight.power; ++factor) {
-    VANTAGE_EACH_ROW(i) end.weight.at[i] *= part.at[i];
+  for (int power = d.weight.power; power > 0; power >>= 1) {
+    if ((power & 1) != 0) {
+      VANTAGE_EACH_ROW(i) {
+        ends.first.at[i] *= first.at[i];
+        ends.last.at[i] *= last.at[i];
+      }
+    }
+    VANTAGE_EACH_ROW(i) {
+      first.at[i] *= first.at[i];
+      last.at[i] *= last.at[i];
+    }
   }
 }
 
@@ -59,11 +71,10 @@ struct EndWeights {
 [[gnu::always_inline]] inline void draw_block(const Drawing& d, const RowSpans& outer,
                                               const RowSpans& inner, int first_row,
                                               int first_column, CoverBlock& block) {
-  RowLanes<std::int32_t> begin, end, last, may_begin, may_end;
+  RowLanes<std::int32_t> begin, end, may_begin, may_end;
   VANTAGE_EACH_ROW(i) {
     begin.at[i] = within_block(inner.begin.at[i], first_column);
     end.at[i] = within_block(inner.end.at[i], first_column);
-    last.at[i] = end.at[i] - 1;
     may_begin.at[i] = within_block(outer.begin.at[i], first_column);
     may_end.at[i] = within_block(outer.end.at[i], first_column);
   }
@@ -89,15 +100,14 @@ struct EndWeights {
     block.certain[i] |= must.at[i];
     block.possible[i] |= fresh.at[i] | unsure.at[i];
   }
-  EndWeights left, right;
-  find_weights(d, first_row, first_column, begin, left);
-  find_weights(d, first_row, first_column, last, right);
+  EndWeights ends;
+  find_weights(d, first_row, first_column, begin, end, ends);
   const float largest = d.largest, doubtful = d.doubtful;
   VANTAGE_EACH_ROW(i) {
-    const float first = left.weight.at[i], second = right.weight.at[i];
-    const float doubt = float(1 - (left.trusted.at[i] & right.trusted.at[i]));
+    const float first = ends.first.at[i], last = ends.last.at[i];
+    const float doubt = float(1 - ends.trusted.at[i]);
     const float line =
-        0.5f * (first + second) + some.at[i] * 0.5f * std::fabs(second - first) + doubt * largest;
+        0.5f * (first + last) + some.at[i] * 0.5f * std::fabs(last - first) + doubt * largest;
     const float each = line < largest ? line : largest;
     block.bound[i] += fresh_count.at[i] * each + unsure_count.at[i] * doubtful;
   }

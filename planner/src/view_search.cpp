@@ -104,7 +104,8 @@ SearchResult ViewSearch::run(std::span<const ViewCandidate> candidates,
 
 std::vector<ScoredStep> ViewSearch::trace(const ViewCandidate& candidate,
                                           const StopToken& stop) const {
-  const std::vector<ServoStep> path = impl_->tools.path(candidate.T_world_cam);
+  std::optional<OutermostShadow> none;
+  const std::vector<ServoStep> path = impl_->tools.path(candidate.T_world_cam, none);
   std::vector<ScoredStep> steps(path.size());
   tbb::parallel_for(std::size_t(0), path.size(), [&](std::size_t i) {
     const PinholeCamera view = impl_->tools.camera.moved_to(path[i].T_world_cam);

@@ -92,6 +92,12 @@ class VANTAGE_API ServoRefiner {
   /// every way to go on is forbidden.
   std::vector<ServoStep> path(const Pose& T_world_cam) const;
 
+  /// The same for many candidates that are close to each other, one after the other.
+  /// @param outermost where the last look found the shadow's outermost points, if it did; this
+  /// path's last look's afterwards. It spares work, and changes no path.
+  std::vector<ServoStep> path(const Pose& T_world_cam,
+                              std::optional<OutermostShadow>& outermost) const;
+
  private:
   std::optional<ServoStep> step(const PinholeCamera& camera, const ShadowBounds& bounds) const;
 
