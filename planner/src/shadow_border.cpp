@@ -3,6 +3,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -16,7 +17,7 @@ namespace {
 constexpr int kSide = PixelTile::kSide;
 
 // Few enough that what they show spares many of those behind them, enough to be worth a call.
-constexpr std::size_t kBatchTiles = 8;
+constexpr std::size_t kBatchTiles = 4;
 
 /// Traces tiles from the borders inwards, as long as they may widen the bounds. Which tiles may
 /// show shadow is drawn as the scan comes to them: faces within the bounds never are.
@@ -100,13 +101,14 @@ class BorderScan {
 
   /// Looks first where the shadow's outermost points are expected to be.
   void trace_at(const OutermostShadow& points) {
+    static_assert(kBatchTiles >= std::tuple_size_v<OutermostShadow>);
     for (const Eigen::Vector3d& point : points) {
       const auto at = view_.project(point);
       if (!at) continue;
       const double column = std::floor((at->u + 0.5) / kSide),
                    row = std::floor((at->v + 0.5) / kSide);
-      if (column < first_.column || column > last_.column) continue;
-      if (row < first_.row || row > last_.row) continue;
+      if (!(column >= first_.column && column <= last_.column)) continue;
+      if (!(row >= first_.row && row <= last_.row)) continue;
       open_tile({std::uint16_t(column), std::uint16_t(row)});
     }
     trace_batch();
