@@ -9,7 +9,7 @@ namespace vantage::detail {
 namespace {
 
 constexpr std::size_t kMostTriangles = 10'000;  // of an object
-constexpr std::size_t kMostOccluders = 300;     // of a scene
+constexpr std::size_t kMostOccluders = 100;     // of a scene
 
 FaceCorners face_of(const std::array<Eigen::Vector3d, 4>& c) {
   return {c, (c[1] - c[0]).cross(c[2] - c[0]).stableNormalized()};

@@ -17,10 +17,12 @@ PlanningScene::PlanningScene(const WorldModel& world, std::shared_ptr<const Stat
         shadow_centres_ = std::make_shared<const Points>(grid_->centres(VoxelState::shadow));
       },
       [&] {
-        shadow_faces_ = std::make_shared<const TriangleMesh>(grid_->faces(VoxelState::shadow));
+        ShadowSurface surface = grid_->shadow_surface(mode);
+        shadow_faces_ = std::make_shared<const TriangleMesh>(std::move(surface.open));
         SceneBuilder builder;
         add_occluders(world, *grid_, mode, builder);
         builder.add_mesh(*shadow_faces_);
+        builder.add_mesh(surface.covered);
         surfaces_ = builder.build();
       });
 }

@@ -44,6 +44,13 @@ bool too_close(const ViewConstraints& limits, const Scene& occupied, const Pose&
   return distance_m > 0 && occupied.closer_than(distance_m, T_world_cam.translation());
 }
 
+bool too_close_to_shadow(const PlanningScene& scene, double near_m, const Eigen::Vector3d& centre) {
+  const Scene& surfaces = scene.surfaces();
+  if (!surfaces.closer_than(near_m, centre)) return false;  // as nearly always
+  return surfaces.closer_than(near_m, centre, scene.shadow_object()) ||
+         surfaces.closer_than(near_m, centre, scene.covered_object());
+}
+
 }  // namespace
 
 ViewChecker::ViewChecker(const ViewConstraints& constraints, PlanningScene scene,
@@ -66,9 +73,7 @@ Rejection ViewChecker::check(const Pose& T_world_cam) const {
     return Rejection::inside_occupied_volume;
   }
   if (state == VoxelState::shadow) return Rejection::inside_shadow;
-  if (scene_.surfaces().closer_than(range_.near_m, centre, scene_.shadow_object())) {
-    return Rejection::too_close_to_shadow;
-  }
+  if (too_close_to_shadow(scene_, range_.near_m, centre)) return Rejection::too_close_to_shadow;
   const bool bumps = too_close(constraints_, scene_.occluders(), T_world_cam);
   return bumps ? Rejection::too_close_to_occupied : Rejection::none;
 }

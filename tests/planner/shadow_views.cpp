@@ -4,14 +4,28 @@
 #include "vantage/volume/classify.hpp"
 
 namespace vantage::test {
+namespace {
+
+OccluderMode mode_of(std::uint32_t seed) {
+  return seed % 2 == 0 ? OccluderMode::mesh : OccluderMode::voxels;
+}
+
+}  // namespace
 
 PlanningScene shadow_scene(std::uint32_t seed) {
   const WorldModel world = random_workcell(seed);
   VolumeOptions options;
-  options.occluders = seed % 2 == 0 ? OccluderMode::mesh : OccluderMode::voxels;
+  options.occluders = mode_of(seed);
   const double voxel_m = 0.008 + 0.002 * (seed % 5);
   return {world, classify(world, GridGeometry::covering(random_workcell_area(), voxel_m), options),
           options.occluders};
+}
+
+std::shared_ptr<const Scene> all_surfaces(std::uint32_t seed, const StateGrid& grid) {
+  SceneBuilder builder;
+  add_occluders(random_workcell(seed), grid, mode_of(seed), builder);
+  builder.add_mesh(grid.faces(VoxelState::shadow));
+  return builder.build();
 }
 
 PinholeCamera shadow_view_anywhere(Random& random, const PlanningScene& scene, int width,

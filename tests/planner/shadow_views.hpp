@@ -13,6 +13,9 @@ namespace vantage::test {
 /// A random workcell, classified.
 PlanningScene shadow_scene(std::uint32_t seed);
 
+/// What hides something there, then all faces of the shadow as one object.
+std::shared_ptr<const Scene> all_surfaces(std::uint32_t seed, const StateGrid& grid);
+
 /// A view from anywhere: most look at the shadow from outside, some past it, some from close by or
 /// inside of it, some along its faces.
 PinholeCamera shadow_view_anywhere(Random& random, const PlanningScene& scene, int width,

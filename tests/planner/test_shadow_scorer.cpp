@@ -83,6 +83,28 @@ TEST_CASE(
   CHECK(without > test::enough(100));
 }
 
+TEST_CASE("covered faces of the shadow show nothing: all of its faces look the same") {
+  std::uint64_t pixels = 0;
+  std::size_t covered = 0;
+  for (std::uint32_t seed = 0; seed < test::scene_count(40); ++seed) {
+    CAPTURE(seed);
+    const PlanningScene scene = test::shadow_scene(seed);
+    const std::shared_ptr<const Scene> all = test::all_surfaces(seed, scene.grid());
+    covered += scene.surfaces().triangle_count(scene.covered_object());
+    Random random(seed);
+    for (int i = 0; i < 10; ++i) {
+      const PinholeCamera view = test::shadow_view_outside(random, 160, 120);
+      const auto ours = test::packet_shadow(scene.surfaces(), scene.shadow_object(), view, 0);
+      const auto theirs = test::packet_shadow(*all, scene.shadow_object(), view, 0);
+      CHECK(ours.pixels == theirs.pixels);
+      CHECK(ours.bounds == theirs.bounds);
+      pixels += ours.pixels;
+    }
+  }
+  CHECK(pixels > test::enough(100'000));
+  CHECK(covered > test::enough(1000));
+}
+
 TEST_CASE("what a look expects changes nothing, and what it finds lies on the bounds") {
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
   std::size_t looks = 0;

@@ -8,6 +8,7 @@
 #include "reference/random_boxes.hpp"
 #include "support/scene_count.hpp"
 #include "vantage/volume/classify.hpp"
+#include "wall_world.hpp"
 
 namespace vantage::test {
 namespace {
@@ -101,6 +102,17 @@ TEST_CASE("with voxels as occluders, distances are to the voxels") {
   CHECK(std::abs(distance(OccluderMode::mesh) - to_ball) < 2e-3);
   // The nearest voxel's corner is at x = 0.04, z = 0.12.
   CHECK(std::abs(distance(OccluderMode::voxels) - std::hypot(0.03, 0.03)) < 2e-4);
+}
+
+TEST_CASE("shadow is as close with a wall before it, whatever stands for the wall") {
+  const WorldModel world = wall_world();
+  const auto grid = classify(world, GridGeometry::covering(random_workcell_area(), 0.01));
+  const Pose before = Pose::looking_at({0, -0.05, 0.09}, {0, 0, 0.09});
+  for (const OccluderMode mode : {OccluderMode::mesh, OccluderMode::voxels}) {
+    const PlanningScene scene(world, grid, mode);
+    CHECK(ViewChecker({}, scene, {0.06, 3}).check(before) == Rejection::none);
+    CHECK(ViewChecker({}, scene, {0.08, 3}).check(before) == Rejection::too_close_to_shadow);
+  }
 }
 
 TEST_CASE("many threads may check at once") {

@@ -46,6 +46,28 @@ std::size_t count_faces(const StateGrid& grid, VoxelState state) {
   return faces;
 }
 
+/// Calls `visit` with the voxels in front of a mesh's faces.
+template <class Visit>
+void for_each_in_front(const TriangleMesh& faces, const GridGeometry& geometry,
+                       const Visit& visit) {
+  const auto corner = [&](std::size_t t, int c) -> Eigen::Vector3d {
+    return (faces.corner(t, c).cast<double>() - geometry.origin()) / geometry.voxel_size_m();
+  };
+  for (std::size_t t = 0; t < faces.triangles().size(); t += 2) {
+    const Eigen::Vector3d a = corner(t, 0), down = corner(t, 1) - a,
+                          across = corner(t, 2) - a - down;
+    const Eigen::Vector3d outwards = down.cross(across).normalized();
+    const double rows = std::round(down.norm()), columns = std::round(across.norm());
+    for (double row = 0.5; row < rows; ++row) {
+      for (double column = 0.5; column < columns; ++column) {
+        const Eigen::Vector3d p =
+            a + row / rows * down + column / columns * across + 0.5 * outwards;
+        visit(Eigen::Vector3i(p.array().floor().cast<int>()));
+      }
+    }
+  }
+}
+
 }  // namespace
 
 TEST_CASE("the faces of a state enclose its voxels exactly, and merge") {
@@ -88,6 +110,30 @@ TEST_CASE("the measured faces are those of the measured voxels") {
                        [&](const Eigen::Vector3i& voxel) { measured += grid->measured(voxel); });
   CHECK(measured > 100);
   CHECK(six_volumes(grid->measured_faces(), geometry) == 6 * measured);
+}
+
+TEST_CASE("the shadow's surface is open, but for the faces against solid voxels") {
+  const GridGeometry geometry = geometry_of(37, 24, 19);
+  for (const std::uint32_t seed : {1u, 2u, 3u}) {
+    const auto grid = make_grid(geometry, test::random_voxels(seed));
+    for (const OccluderMode mode : {OccluderMode::voxels, OccluderMode::mesh}) {
+      CAPTURE(int(mode));
+      const ShadowSurface surface = grid->shadow_surface(mode);
+      CHECK(six_volumes(surface.open, geometry) + six_volumes(surface.covered, geometry) ==
+            6 * std::int64_t(grid->count(VoxelState::shadow)));
+      std::size_t open = 0, covered = 0, wrong = 0;
+      const auto solid = [&](const Eigen::Vector3i& voxel) {
+        return mode == OccluderMode::voxels ? grid->at(voxel) == VoxelState::occupied
+                                            : grid->measured(voxel);
+      };
+      for_each_in_front(surface.open, geometry, [&](const auto& v) { ++open, wrong += solid(v); });
+      for_each_in_front(surface.covered, geometry,
+                        [&](const auto& v) { ++covered, wrong += !solid(v); });
+      CHECK(wrong == 0);
+      CHECK(covered > 100);
+      CHECK(open + covered == count_faces(*grid, VoxelState::shadow));
+    }
+  }
 }
 
 }  // namespace vantage

@@ -58,6 +58,18 @@ void add_patches(const MaskBlock& block, int axis, BlockReader& at,
   }
 }
 
+/// The voxels in front of a patch's faces, as its bits.
+std::uint64_t in_front(const FacePatch& patch, BlockReader& at) {
+  const auto [axis, sign, position] = patch.plane;
+  const int layer = sign > 0 ? position : position - 1;
+  openvdb::Coord block;
+  block[axis] = layer & ~7;
+  block[(axis + 1) % 3] = patch.row;
+  block[(axis + 2) % 3] = patch.column;
+  const BlockWords words = at.words(block);
+  return words == BlockWords{} ? 0 : along(axis, words)[std::size_t(layer & 7)];
+}
+
 }  // namespace
 
 std::vector<FacePatch> face_patches(const openvdb::MaskTree& voxels) {
@@ -68,6 +80,21 @@ std::vector<FacePatch> face_patches(const openvdb::MaskTree& voxels) {
   }
   tbb::parallel_sort(patches);
   return patches;
+}
+
+SplitPatches split(const std::vector<FacePatch>& patches, const openvdb::MaskTree& covering) {
+  SplitPatches parts;
+  BlockReader at(covering);
+  const auto add = [](FacePatch patch, std::uint64_t faces, std::vector<FacePatch>& part) {
+    patch.faces = faces;
+    if (faces != 0) part.push_back(patch);
+  };
+  for (const FacePatch& patch : patches) {
+    const std::uint64_t covered = patch.faces & in_front(patch, at);
+    add(patch, patch.faces & ~covered, parts.open);
+    add(patch, covered, parts.covered);
+  }
+  return parts;
 }
 
 }  // namespace vantage::detail

@@ -27,4 +27,13 @@ struct FacePatch {
 /// The faces between the active voxels and all others, sorted.
 std::vector<FacePatch> face_patches(const openvdb::MaskTree& voxels);
 
+/// Some faces, in two parts.
+struct SplitPatches {
+  std::vector<FacePatch> open, covered;
+};
+
+/// Those in front of which, the way they look, there is a voxel of `covering` are covered. Both
+/// parts are in the order of `patches`.
+SplitPatches split(const std::vector<FacePatch>& patches, const openvdb::MaskTree& covering);
+
 }  // namespace vantage::detail

@@ -129,4 +129,9 @@ TriangleMesh StateGrid::measured_faces() const {
   return detail::voxel_faces(impl_->measured, geometry());
 }
 
+ShadowSurface StateGrid::shadow_surface(OccluderMode mode) const {
+  const auto& solid = mode == OccluderMode::voxels ? impl_->occupied : impl_->measured;
+  return detail::split_voxel_faces(impl_->shadow, solid, geometry());
+}
+
 }  // namespace vantage

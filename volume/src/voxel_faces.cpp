@@ -131,12 +131,9 @@ std::vector<std::uint64_t> rectangle_corners(const std::vector<PlaneRectangles>&
   return corners;
 }
 
-}  // namespace
-
-TriangleMesh voxel_faces(const openvdb::MaskTree& voxels, const GridGeometry& geometry) {
+TriangleMesh mesh_of(const std::vector<FacePatch>& patches, const GridGeometry& geometry) {
   const CornerNumbers numbers(geometry);
-  const std::vector<std::uint64_t> corners =
-      rectangle_corners(merged(face_patches(voxels)), numbers);
+  const std::vector<std::uint64_t> corners = rectangle_corners(merged(patches), numbers);
   std::vector<std::uint64_t> used = corners;
   tbb::parallel_sort(used);
   used.erase(std::unique(used.begin(), used.end()), used.end());
@@ -156,6 +153,18 @@ TriangleMesh voxel_faces(const openvdb::MaskTree& voxels, const GridGeometry& ge
     triangles[2 * r + 1] = {v[0], v[2], v[3]};
   });
   return {std::move(vertices), std::move(triangles), "voxel faces"};
+}
+
+}  // namespace
+
+TriangleMesh voxel_faces(const openvdb::MaskTree& voxels, const GridGeometry& geometry) {
+  return mesh_of(face_patches(voxels), geometry);
+}
+
+ShadowSurface split_voxel_faces(const openvdb::MaskTree& voxels, const openvdb::MaskTree& covering,
+                                const GridGeometry& geometry) {
+  const SplitPatches parts = split(face_patches(voxels), covering);
+  return {mesh_of(parts.open, geometry), mesh_of(parts.covered, geometry)};
 }
 
 }  // namespace vantage::detail

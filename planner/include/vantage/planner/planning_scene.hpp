@@ -25,13 +25,14 @@ class VANTAGE_API PlanningScene {
   /// Everything occupied: the objects of `occluder_scene`.
   const Scene& occluders() const noexcept { return *occluders_; }
 
-  /// The same objects under the same ids, and the faces of the shadow as object `shadow_object()`.
-  /// In front of a free voxel, a ray's first hit says whether it meets shadow or something
-  /// occupied.
+  /// The same objects under the same ids, then the open faces of the shadow, `shadow_object()`, and
+  /// the covered ones, `covered_object()` (`StateGrid::shadow_surface`). In front of a free voxel,
+  /// a ray's first hit says whether it meets shadow or something occupied.
   const Scene& surfaces() const noexcept { return *surfaces_; }
   ObjectId shadow_object() const noexcept { return ObjectId(occluders_->object_count()); }
+  ObjectId covered_object() const noexcept { return shadow_object() + 1; }
 
-  /// `grid().faces(shadow)`: merged rectangles, two triangles each, outwards.
+  /// The open ones: merged rectangles, two triangles each, outwards.
   const TriangleMesh& shadow_faces() const noexcept { return *shadow_faces_; }
 
   /// `grid().centres(shadow)`.

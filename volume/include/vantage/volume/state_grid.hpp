@@ -10,6 +10,7 @@
 #include "vantage/raycore/points.hpp"
 #include "vantage/raycore/triangle_mesh.hpp"
 #include "vantage/volume/grid_geometry.hpp"
+#include "vantage/volume/volume_options.hpp"
 #include "vantage/volume/volume_report.hpp"
 
 namespace vantage {
@@ -20,6 +21,12 @@ enum class VoxelState : std::int32_t {
   occupied = 1,  ///< inside a known object, or at a measured surface
   shadow = 2,    ///< neither: no camera sees it
   revealed = 3,  ///< shadow that the suggested view would see
+};
+
+/// The faces of the shadow in two parts; triangles as from `StateGrid::faces`.
+struct ShadowSurface {
+  TriangleMesh open;     ///< what a ray from outside may meet
+  TriangleMesh covered;  ///< against solid voxels: a ray meets those first
 };
 
 namespace detail {
@@ -72,6 +79,10 @@ class VANTAGE_API StateGrid {
 
   /// The same for the measured part of the occupied voxels.
   TriangleMesh measured_faces() const;
+
+  /// `faces(VoxelState::shadow)`, where those voxels are solid that `occluder_scene` makes boxes of
+  /// in this mode: all that are occupied, or the measured ones.
+  ShadowSurface shadow_surface(OccluderMode mode) const;
 
   /// Writes an OpenVDB file with the int32 grid `state`, and for programs that read no int32 grids
   /// the bool grids `occupied`, `shadow`, `revealed`, `measured` and `unseen` (true and active in
