@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "evaluation/label_places.hpp"
+#include "evaluation/mark_stacks.hpp"
 #include "evaluation/plot_axis.hpp"
 #include "evaluation/plot_marks.hpp"
 #include "evaluation/svg.hpp"
@@ -14,7 +14,10 @@ namespace vantage {
 namespace {
 
 constexpr double kWidth = 900, kLeft = 80, kRight = 30, kTop = 118;
-constexpr double kFrameWidth = kWidth - kLeft - kRight, kFrameHeight = 340, kHead = 34;
+constexpr double kFrameWidth = kWidth - kLeft - kRight, kRatiosHeight = 306;
+constexpr double kLeastHead = 34;  // room above the highest ratio
+constexpr double kLabel = 12;      // from a mark's middle to its number's
+constexpr MarkCell kCell{.left = 6, .right = 17, .height = 12.5};
 constexpr double kKeyTop = 66, kKeyLine = 20, kKeyColumns = 3;
 
 /// A mark of the plot.
@@ -61,17 +64,43 @@ struct RatioAxis {
 struct Frame {
   PlotAxis times;
   RatioAxis ratios;
+  double head = kLeastHead;
 
   double x(double seconds) const { return kLeft + kFrameWidth * times.share(seconds); }
   double y(double ratio) const {
     const double share = (ratio - ratios.low) / (ratios.high - ratios.low);
-    return kTop + kHead + (kFrameHeight - kHead) * (1 - share);
+    return kTop + head + kRatiosHeight * (1 - share);
   }
-  static constexpr double kBottom = kTop + kFrameHeight, kEnd = kLeft + kFrameWidth;
+  double bottom() const { return kTop + head + kRatiosHeight; }
+  static constexpr double kEnd = kLeft + kFrameWidth;
 };
 
 std::string seconds_text(double seconds) {
   return seconds < 1 ? fmt::format("{:.3g} ms", 1000 * seconds) : fmt::format("{:.3g} s", seconds);
+}
+
+/// Where on the page the marks belong, and where they stand.
+struct MarkPlaces {
+  std::vector<PagePoint> points;
+  std::vector<double> y;
+
+  MarkPlaces(const std::vector<Mark>& marks, const Frame& frame) {
+    for (const Mark& mark : marks) {
+      points.push_back({frame.x(mark.point.run_time_s), frame.y(mark.point.vox_ratio)});
+    }
+    y = stacked(points, kCell);
+  }
+
+  double top() const {
+    return y.empty() ? kTop : *std::ranges::min_element(y) - 0.5 * kCell.height;
+  }
+};
+
+/// With room for all stacks.
+Frame frame_of(const std::vector<Mark>& marks) {
+  Frame frame{PlotAxis(times_of(marks), {}, PlotScale::logarithmic), RatioAxis(marks)};
+  frame.head += std::max(0.0, kTop - MarkPlaces(marks, frame).top());
+  return frame;
 }
 
 std::string draw_axes(const Frame& frame) {
@@ -82,17 +111,17 @@ std::string draw_axes(const Frame& frame) {
     svg += svg_text(kLeft - 8, frame.y(tick) + 4, "tick-y", fmt::format("{:.4g}", tick));
   }
   for (const double tick : frame.times.ticks()) {
-    svg += svg_line(frame.x(tick), kTop, frame.x(tick), Frame::kBottom, "class=\"grid\"");
-    svg += svg_text(frame.x(tick), Frame::kBottom + 18, "tick-x", seconds_text(tick));
+    svg += svg_line(frame.x(tick), kTop, frame.x(tick), frame.bottom(), "class=\"grid\"");
+    svg += svg_text(frame.x(tick), frame.bottom() + 18, "tick-x", seconds_text(tick));
   }
-  svg += svg_line(kLeft, kTop, kLeft, Frame::kBottom, "class=\"axis\"");
-  svg += svg_line(kLeft, Frame::kBottom, Frame::kEnd, Frame::kBottom, "class=\"axis\"");
-  svg += svg_text(kLeft + kFrameWidth / 2, Frame::kBottom + 40, "label",
+  svg += svg_line(kLeft, kTop, kLeft, frame.bottom(), "class=\"axis\"");
+  svg += svg_line(kLeft, frame.bottom(), Frame::kEnd, frame.bottom(), "class=\"axis\"");
+  svg += svg_text(kLeft + kFrameWidth / 2, frame.bottom() + 40, "label",
                   "run time, from a classified grid to the answer");
   return svg + fmt::format(
                    "<text class=\"label\" transform=\"translate({:.1f} {:.1f}) "
                    "rotate(-90)\">vox ratio</text>\n",
-                   kLeft - 56, kTop + kFrameHeight / 2);
+                   kLeft - 56, kTop + frame.head + kRatiosHeight / 2);
 }
 
 std::string draw_legend(const std::vector<TimePlotSeries>& series) {
@@ -104,47 +133,37 @@ std::string draw_legend(const std::vector<TimePlotSeries>& series) {
     x += 44 + 8 * double(series[s].name.size());
     thesis = thesis || !series[s].thesis.empty();
   }
-  if (!thesis) return svg;
-  return svg + svg_text(kLeft - 6, 92, "note",
-                        "Hollow: the thesis' figures, on its own scenes and machine (an i7-6700HQ "
-                        "with a GPU)");
+  std::string note = "Lines lead to marks' places.";
+  if (thesis) {
+    note +=
+        " Hollow: the thesis' figures, on its own scenes and machine (an i7-6700HQ with a GPU).";
+  }
+  return svg + svg_text(kLeft - 6, 92, "note", note);
 }
 
 std::string draw_marks(const std::vector<Mark>& marks, const Frame& frame) {
-  std::vector<LabelledPoint> points;
-  for (const Mark& mark : marks) {
-    points.push_back({frame.x(mark.point.run_time_s), frame.y(mark.point.vox_ratio)});
-  }
-  const auto places =
-      label_places(points, 9, 12, 6, {kLeft + 2, kTop, Frame::kEnd, Frame::kBottom});
-  std::string lines, svg;
+  const MarkPlaces places(marks, frame);
+  std::string stems, svg;
   for (std::size_t i = 0; i < marks.size(); ++i) {
-    if (places[i].away) {
-      lines += svg_line(points[i].x, points[i].y, places[i].x, places[i].y,
-                        "stroke=\"#999\" stroke-width=\"0.8\"");
+    const auto [x, y] = places.points[i];
+    if (places.y[i] < y) {
+      stems += svg_line(x, y, x, places.y[i], "stroke=\"#999\" stroke-width=\"0.8\"");
     }
-    svg += plot_mark(marks[i].series, points[i].x, points[i].y,
+    svg += plot_mark(marks[i].series, x, places.y[i],
                      marks[i].thesis ? MarkFill::hollow : MarkFill::full);
-  }
-  for (std::size_t i = 0; i < marks.size(); ++i) {
-    if (places[i].away) {  // the line ends at the number's white ground
-      svg +=
-          fmt::format("<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"9\" height=\"12\" fill=\"#fff\"/>\n",
-                      places[i].x - 4.5, places[i].y - 6);
-    }
     svg +=
-        svg_text(places[i].x, places[i].y + 4, "tick-x", std::to_string(marks[i].point.scene + 1));
+        svg_text(x + kLabel, places.y[i] + 4, "beside", std::to_string(marks[i].point.scene + 1));
   }
-  return lines + svg;
+  return stems + svg;
 }
 
-std::string draw_key(const std::vector<std::string>& scenes) {
+std::string draw_key(const std::vector<std::string>& scenes, const Frame& frame) {
   std::string svg;
   for (std::size_t i = 0; i < scenes.size(); ++i) {
     const double column = std::fmod(double(i), kKeyColumns),
                  line = std::floor(double(i) / kKeyColumns);
     svg += svg_text(kLeft + column * kFrameWidth / kKeyColumns,
-                    Frame::kBottom + kKeyTop + kKeyLine * line, "legend",
+                    frame.bottom() + kKeyTop + kKeyLine * line, "legend",
                     fmt::format("{}  {}", i + 1, scenes[i]));
   }
   return svg;
@@ -155,11 +174,11 @@ std::string draw_key(const std::vector<std::string>& scenes) {
 std::string run_time_plot_svg(const std::string& title, const std::vector<std::string>& scenes,
                               const std::vector<TimePlotSeries>& series) {
   const std::vector<Mark> marks = marks_of(series);
-  const Frame frame{PlotAxis(times_of(marks), {}, PlotScale::logarithmic), RatioAxis(marks)};
+  const Frame frame = frame_of(marks);
   const double key_lines = std::ceil(double(scenes.size()) / kKeyColumns);
-  return svg_page(kWidth, Frame::kBottom + kKeyTop + kKeyLine * key_lines,
+  return svg_page(kWidth, frame.bottom() + kKeyTop + kKeyLine * key_lines,
                   svg_text(kLeft - 56, 32, "title", title) + draw_legend(series) +
-                      draw_axes(frame) + draw_marks(marks, frame) + draw_key(scenes));
+                      draw_axes(frame) + draw_marks(marks, frame) + draw_key(scenes, frame));
 }
 
 }  // namespace vantage

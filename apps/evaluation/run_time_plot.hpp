@@ -21,8 +21,8 @@ struct TimePlotSeries {
 };
 
 /// Run time on the horizontal axis, logarithmic, against the vox ratio, as the thesis' figures 9.16
-/// and 9.18: one mark for each method and scene, the thesis' marks hollow. Each has its scene's
-/// number beside it, which no other mark covers.
+/// and 9.18: one mark for each method and scene, the thesis' marks hollow, with the scene's number
+/// beside it. Marks that would cover others stand above them, on a line from their place.
 /// @returns a self-contained SVG.
 std::string run_time_plot_svg(const std::string& title, const std::vector<std::string>& scenes,
                               const std::vector<TimePlotSeries>& series);

@@ -10,7 +10,8 @@ constexpr const char* kLooks =
     ".plot text{font-family:'DejaVu Sans',Helvetica,Arial,sans-serif;fill:#222;font-size:12px}\n"
     ".plot .title{font-size:17px;font-weight:bold}\n"
     ".plot .panel{font-size:14px;text-anchor:middle}\n"
-    ".plot .label,.plot .tick-x{text-anchor:middle}.plot .tick-y{text-anchor:end}\n"
+    ".plot .label,.plot .tick-x,.plot .beside{text-anchor:middle}.plot .tick-y{text-anchor:end}\n"
+    ".plot .beside{paint-order:stroke;stroke:#fff;stroke-width:3px}\n"
     ".plot .legend{font-size:13px}.plot .note{fill:#666;font-size:11px}\n"
     ".plot .grid{stroke:#ddd;stroke-width:1}.plot .axis{stroke:#222;stroke-width:1.2}\n";
 

@@ -8,7 +8,7 @@ namespace vantage {
 std::string xml_escaped(const std::string& text);
 
 /// A text element. `look` is one of the classes of `svg_page`: title, panel, label, tick-x, tick-y,
-/// legend, note.
+/// beside (a mark, on white), legend, note.
 std::string svg_text(double x, double y, const char* look, const std::string& content);
 
 /// A line; `look` has further attributes, e.g. class="axis" or class="grid".

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <random>
 
-#include "evaluation/label_places.hpp"
+#include "evaluation/mark_stacks.hpp"
 #include "evaluation/plot_axis.hpp"
 
 namespace vantage {
@@ -17,39 +17,32 @@ std::size_t count(const std::string& text, const std::string& part) {
   return found;
 }
 
-PlotBox around(double x, double y, double width, double height) {
-  return {x - width / 2, y - height / 2, x + width / 2, y + height / 2};
-}
-
 }  // namespace
 
-TEST_CASE("labels hide neither marks nor each other, and stay on the page") {
-  const PlotBox page{0, 0, 400, 300};
+TEST_CASE("stacked marks cover none, and rise only where others are in the way") {
+  const MarkCell cell{7, 18, 15};
   std::mt19937 random(7);
-  std::uniform_real_distribution<double> x(10, 390), y(10, 290);
-  std::vector<LabelledPoint> points;
+  std::uniform_real_distribution<double> x(0, 400), y(100, 300);
+  std::vector<PagePoint> points;
   for (int i = 0; i < 40; ++i) points.push_back({x(random), y(random)});
-  for (int i = 0; i < 6; ++i) points.push_back({200.0 + 3 * i, 8});  // a crowd at the border
-  const auto places = label_places(points, 9, 12, 5, page);
-  REQUIRE(places.size() == points.size());
-  for (std::size_t i = 0; i < places.size(); ++i) {
+  for (int i = 0; i < 12; ++i) points.push_back({200.0 + 3 * i, 50});  // a crowd
+  const std::vector<double> stacks = stacked(points, cell);
+  REQUIRE(stacks.size() == points.size());
+  std::size_t risen = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
     CAPTURE(i);
-    const PlotBox label = around(places[i].x, places[i].y, 9, 12);
-    CHECK(label.within(page));
-    for (const LabelledPoint& p : points) CHECK_FALSE(label.meets(around(p.x, p.y, 10, 10)));
-    for (std::size_t j = 0; j < i; ++j) {
-      CHECK_FALSE(label.meets(around(places[j].x, places[j].y, 9, 12)));
+    CHECK(stacks[i] <= points[i].y);
+    bool rests = stacks[i] == points[i].y;
+    risen += !rests;
+    for (std::size_t j = 0; j < points.size(); ++j) {
+      if (j == i || std::abs(points[i].x - points[j].x) >= 25) continue;
+      CHECK(std::abs(stacks[i] - stacks[j]) > 15 - 1e-9);
+      rests |= std::abs(stacks[j] - stacks[i] - 15) < 1e-9;
     }
-    const double distance = std::hypot(places[i].x - points[i].x, places[i].y - points[i].y);
-    CHECK(places[i].away == (distance > 14));
+    CHECK(rests);
   }
-}
-
-TEST_CASE("a lonely label stands right beside its mark") {
-  const auto places = label_places({{50, 50}}, 9, 12, 5, {0, 0, 100, 100});
-  CHECK(places[0].x == 62);
-  CHECK(places[0].y == 50);
-  CHECK_FALSE(places[0].away);
+  CHECK(risen > 8);
+  CHECK(risen < 30);
 }
 
 TEST_CASE("an axis is logarithmic where that is asked for, however alike values are") {
