@@ -10,6 +10,7 @@
 #include <string>
 
 #include "bench_planner_scenes.hpp"
+#include "evaluation/planning_numbers.hpp"
 #include "scaling_plot.hpp"
 #include "timing.hpp"
 #include "vantage/planner/view_search.hpp"
@@ -62,7 +63,7 @@ void measure(const PlannerScene& scene, const HalfSpheres& set, double size, Sca
 
 ScalingPanel over_candidates() {
   const PlannerScene scene = two_pillars_scene(kThesisVoxel, OccluderMode::mesh);
-  ScalingPanel panel{fmt::format("{} shadow voxels", scene.shadow_voxels()),
+  ScalingPanel panel{count_text(scene.shadow_voxels()) + " shadow voxels",
                      "candidates, 25 at each position",
                      {{"every view's score", {}, {}}, {"search for the ten best", {}, {}}}};
   for (const int views : {50, 400, 3200, 34225, 200'000, 1'000'000}) {
