@@ -2,6 +2,7 @@
 
 #include <numbers>
 
+#include "number_checks.hpp"
 #include "vantage/raycore/error.hpp"
 #include "view_list.hpp"
 #include "workcell_views.hpp"
@@ -40,21 +41,21 @@ void CandidateOptions::add_to(CLI::App& verb) {
   verb.add_option("--radii", radii_m,
                   "Radii of the half-spheres, metres, e.g. 0.6,0.9 (default: from the work area)")
       ->delimiter(',')
-      ->check(CLI::PositiveNumber);
+      ->check(positive_number());
   verb.add_option("--count", counts,
                   "Positions on each half-sphere: one number, or one for each, e.g. 20,40")
       ->delimiter(',')
-      ->check(CLI::PositiveNumber);
+      ->check(positive_number());
   verb.add_option("--rings", rings,
                   "Rings of further directions at each position: 8 in the first, 16 in the next …")
       ->check(CLI::Range(0, 50));
   verb.add_option("--ring-step", ring_step_rad, "Angle from ring to ring, radians (default: 0.175)")
-      ->check(CLI::Range(1e-6, std::numbers::pi));
+      ->check(number_between(1e-6, std::numbers::pi));
   verb.add_option(
           "--clearance", clearance_m,
           "Least distance of the camera's body from the floor and everything occupied, metres "
           "(default: 0)")
-      ->check(CLI::NonNegativeNumber);
+      ->check(number_from_zero());
 }
 
 CandidateSet CandidateOptions::resolve(const Workcell& workcell) const {

@@ -2,6 +2,8 @@
 
 #include <chrono>
 
+#include "number_checks.hpp"
+
 namespace vantage {
 
 void CommonOptions::add_to(CLI::App& verb) {
@@ -27,7 +29,7 @@ void CommonOptions::add_to(CLI::App& verb) {
   verb.add_option("--threads", threads, "Threads to use (0: all)")->check(CLI::Range(0, 1024));
   verb.add_option("--deadline-ms", deadline_ms,
                   "Return the best view found after this time (exit code 5 if not all were scored)")
-      ->check(CLI::Range(0.0, 1e9));
+      ->check(number_between(0.0, 1e9));
 }
 
 RunOptions CommonOptions::run(StopToken::Clock::time_point start) const {

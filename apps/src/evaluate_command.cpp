@@ -2,6 +2,7 @@
 #include <memory>
 
 #include "command.hpp"
+#include "number_checks.hpp"
 #include "true_gain.hpp"
 
 namespace vantage {
@@ -29,7 +30,7 @@ void add_gain(CLI::App& evaluate, Action& action) {
   verb->add_option("plan", arguments->plan, "plan.json")->required();
   verb->add_option("--voxel-size", arguments->voxel_size_m,
                    "Edge of a voxel of the truth, metres; the plan's without it")
-      ->check(CLI::PositiveNumber);
+      ->check(positive_number());
   verb->add_flag("--json", arguments->json, "Print JSON instead of a summary");
   verb->parse_complete_callback(
       [&action, arguments] { action = [=] { return evaluate_gain(*arguments); }; });

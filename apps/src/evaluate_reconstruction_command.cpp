@@ -10,6 +10,7 @@
 #include "evaluation_report.hpp"
 #include "inputs_json.hpp"
 #include "interrupt.hpp"
+#include "number_checks.hpp"
 #include "progress_line.hpp"
 #include "random_objects.hpp"
 #include "reconstruct_options.hpp"
@@ -130,13 +131,13 @@ void add_disturbance_options(CLI::App& verb, EvaluationSettings& settings) {
   Disturbance& disturbance = settings.disturbance;
   verb.add_option("--noise-px", disturbance.noise_px,
                   "Standard deviation added to what was detected, pixels")
-      ->check(CLI::NonNegativeNumber);
+      ->check(number_from_zero());
   verb.add_option("--drop", disturbance.drop, "Share of the detected features that is lost")
-      ->check(CLI::Range(0.0, 1.0));
+      ->check(number_between(0.0, 1.0));
   verb.add_option(
           "--wrong-ids", disturbance.wrong_ids,
           "Share of the markers, the board's too, that is read as another of the dictionary")
-      ->check(CLI::Range(0.0, 1.0));
+      ->check(number_between(0.0, 1.0));
   verb.add_option("--seed", disturbance.seed, "Of these; another seed, others")
       ->capture_default_str();
   verb.add_option("--trials", settings.trials, "Disturb each subset so often, each time otherwise")
@@ -158,7 +159,7 @@ void add_subset_options(CLI::App& verb, EvaluateArguments& arguments) {
       ->capture_default_str();
   verb.add_option("--correct", arguments.settings.correct,
                   "An estimate is correct if its MSSD is below this share of the object's diameter")
-      ->check(CLI::PositiveNumber)
+      ->check(positive_number())
       ->capture_default_str();
 }
 

@@ -8,6 +8,7 @@
 #include "inputs_json.hpp"
 #include "interrupt.hpp"
 #include "method_options.hpp"
+#include "number_checks.hpp"
 #include "plan_options.hpp"
 #include "progress_line.hpp"
 #include "replay_json.hpp"
@@ -105,7 +106,7 @@ void add_replay_options(CLI::App& verb, ReplayArguments& arguments) {
   verb.add_option("--least-seen", settings.least_seen,
                   "Frames of a pair show at least this share of the work area each; all others "
                   "may be picked")
-      ->check(CLI::Range(0.0, 1.0))
+      ->check(number_between(0.0, 1.0))
       ->capture_default_str();
 }
 

@@ -4,6 +4,7 @@
 #include "command.hpp"
 #include "inputs_json.hpp"
 #include "interrupt.hpp"
+#include "number_checks.hpp"
 #include "progress_line.hpp"
 #include "shadow_filter_json.hpp"
 #include "shadow_filter_runs.hpp"
@@ -81,7 +82,7 @@ void add_filter_options(CLI::App& verb, ShadowFilterSettings& settings) {
                   "How far the visibility mesh moves away from its camera, in σ of the depth's "
                   "noise, e.g. 0,1,2,3")
       ->delimiter(',')
-      ->check(CLI::Range(0.0, 1000.0))
+      ->check(number_between(0.0, 1000.0))
       ->capture_default_str();
   verb.add_option("--openings", settings.openings_voxels,
                   "Radii of the shadow's morphological opening, voxels; 0: none")
@@ -91,7 +92,7 @@ void add_filter_options(CLI::App& verb, ShadowFilterSettings& settings) {
   verb.add_option("--least-cm3", settings.least_cm3,
                   "Regions of shadow smaller than this are removed; 0: none")
       ->delimiter(',')
-      ->check(CLI::Range(0.0, 1e9))
+      ->check(number_between(0.0, 1e9))
       ->capture_default_str();
 }
 
@@ -106,7 +107,7 @@ void add_mesh_options(CLI::App& verb, FilterArguments& arguments) {
       ->check(CLI::IsMember({"fill", "unknown"}))
       ->capture_default_str();
   verb.add_option("--voxel-size", arguments.settings.voxel_size_m, "Edge of a voxel, metres")
-      ->check(CLI::PositiveNumber)
+      ->check(positive_number())
       ->capture_default_str();
 }
 

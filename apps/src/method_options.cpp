@@ -4,6 +4,8 @@
 
 #include <map>
 
+#include "number_checks.hpp"
+
 namespace vantage {
 namespace {
 
@@ -13,7 +15,7 @@ void add_travel_options(CLI::App& verb, MethodArguments& arguments) {
                           ->expected(3);
   verb.add_option("--travel-weight", arguments.travel_weight_per_m,
                   "Cost of the journey: a score counts exp(-W d) times at a distance of d metres")
-      ->check(CLI::NonNegativeNumber)
+      ->check(number_from_zero())
       ->needs(from);
 }
 
@@ -23,9 +25,9 @@ void add_view_count_options(CLI::App& verb, ViewCount& views) {
       ->capture_default_str();
   verb.add_option("--least-gain", views.least_gain_m3,
                   "Stop before a further view that reveals less than this, m³")
-      ->check(CLI::NonNegativeNumber);
+      ->check(number_from_zero());
   verb.add_option("--least-gain-share", views.least_gain_share, "The same as a share of all shadow")
-      ->check(CLI::Range(0.0, 1.0));
+      ->check(number_between(0.0, 1.0));
 }
 
 }  // namespace
@@ -45,17 +47,17 @@ void add_mesh_options(CLI::App& verb, MeshOptions& mesh) {
   verb.add_option("--mesh-offset", mesh.visibility.offset_sigmas,
                   "Of --method mesh: measured surfaces move back by so many standard deviations of "
                   "the depth, which takes away the false shadow that noise makes")
-      ->check(CLI::Range(0.0, 100.0))
+      ->check(number_between(0.0, 100.0))
       ->capture_default_str();
   verb.add_option("--mesh-opening", mesh.opening_m,
                   "Of --method mesh: what is unseen, but a cube of this edge does not fit in, "
                   "counts as seen, metres: noise leaves such shadow, too; 0: all counts")
-      ->check(CLI::NonNegativeNumber)
+      ->check(number_from_zero())
       ->capture_default_str();
   verb.add_option("--mesh-exact", mesh.exact_views,
                   "Of --method mesh: with more views than this, servo iterations included, a "
                   "shortlist of them is scored exactly")
-      ->check(CLI::NonNegativeNumber)
+      ->check(number_from_zero())
       ->capture_default_str();
   verb.add_option("--mesh-shortlist", mesh.shortlist, "Of --method mesh: length of that shortlist")
       ->check(CLI::Range(1, 1000000))
@@ -70,7 +72,7 @@ void add_weight_options(CLI::App& verb, MethodArguments& arguments) {
   verb.add_option("--depth-power", arguments.depth_power,
                   "Of --method shadow and mesh: pixels count depth^P; 0, 3 and 6 are the thesis' "
                   "D0, D3, D6")
-      ->check(CLI::Range(0.0, 16.0))
+      ->check(number_between(0.0, 16.0))
       ->default_str(fmt::format("{:g}", arguments.method.depth_power));
   verb.add_option("--mesh-weight", arguments.mesh_weight,
                   "Of --method mesh: what unseen pixels count; volume: the volume behind them, by "

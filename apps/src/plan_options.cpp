@@ -1,5 +1,7 @@
 #include "plan_options.hpp"
 
+#include "number_checks.hpp"
+
 namespace vantage {
 
 void add_input_options(CLI::App& verb, PlanOptions& plan) {
@@ -46,10 +48,10 @@ void add_volume_options(CLI::App& verb, PlanOptions& plan) {
   verb.add_option("--band-sigmas", plan.band_sigmas,
                   "Thickness of a measured surface in standard deviations of the depth, at least a "
                   "voxel (default: 4)")
-      ->check(CLI::NonNegativeNumber);
+      ->check(number_from_zero());
   verb.add_option("--depth-noise-px", plan.depth_noise_px,
                   "Noise of the depth cameras' stereo matching, pixels (default: 0.08)")
-      ->check(CLI::NonNegativeNumber);
+      ->check(number_from_zero());
 }
 
 }  // namespace vantage

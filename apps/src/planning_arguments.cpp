@@ -1,5 +1,6 @@
 #include "planning_arguments.hpp"
 
+#include "number_checks.hpp"
 #include "planning_cell.hpp"
 
 namespace vantage {
@@ -36,7 +37,7 @@ void add_method_options(CLI::App& verb, PlanningArguments& arguments) {
                   "production set has the first and the last (default: from the work area)")
       ->delimiter(',')
       ->expected(3)
-      ->check(CLI::PositiveNumber);
+      ->check(positive_number());
   verb.add_option("--servo", arguments.settings.servo.iterations, "Servo iterations; 0: none")
       ->check(CLI::Range(0, 100))
       ->capture_default_str();
@@ -48,7 +49,7 @@ void add_method_options(CLI::App& verb, PlanningArguments& arguments) {
       ->capture_default_str();
   verb.add_option("--voxel-size", arguments.settings.voxel_size_m,
                   "Edge of a voxel, metres (default: the workcell's, else 0.009375)")
-      ->check(CLI::PositiveNumber);
+      ->check(positive_number());
   verb.add_option("--occluders", arguments.occluders,
                   "What hides: the known objects' exact meshes, or as in the thesis their voxels, "
                   "with anti-aliasing (default: the workcell's)")

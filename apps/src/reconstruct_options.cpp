@@ -1,5 +1,7 @@
 #include "reconstruct_options.hpp"
 
+#include "number_checks.hpp"
+
 namespace vantage {
 
 void ReconstructArguments::add_to(CLI::App& verb) {
@@ -19,7 +21,7 @@ void ReconstructArguments::add_to(CLI::App& verb) {
       ->needs(verb.get_option("--features"));
   verb.add_option("--inlier-px", inlier_px,
                   "Features whose residuals are above belong to something else")
-      ->check(CLI::PositiveNumber)
+      ->check(positive_number())
       ->capture_default_str();
   verb.add_flag("--no-ambiguous", no_ambiguous,
                 "Leave out what one camera sees by one marker, which may be tilted two ways");

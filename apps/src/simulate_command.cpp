@@ -7,6 +7,7 @@
 
 #include "command.hpp"
 #include "interrupt.hpp"
+#include "number_checks.hpp"
 #include "progress_line.hpp"
 #include "simulated_dataset.hpp"
 #include "simulation_record.hpp"
@@ -47,12 +48,12 @@ void add_color_options(CLI::App& verb, SimulateArguments& a) {
                   "K1 K2 P1 P2 K3: the colour lens' Brown-Conrady distortion; none without it")
       ->expected(5);
   verb.add_option("--vignetting", color.vignetting, "Darker corners: 0 none, 1 the cos⁴ law")
-      ->check(CLI::Range(0.0, 1.0));
+      ->check(number_between(0.0, 1.0));
   verb.add_option("--read-noise", color.read_noise,
                   "Standard deviation of the linear signal; full scale is 1")
-      ->check(CLI::Range(0.0, 1.0));
+      ->check(number_between(0.0, 1.0));
   verb.add_option("--shot-noise", color.shot_noise, "Variance for each unit of the linear signal")
-      ->check(CLI::Range(0.0, 1.0));
+      ->check(number_between(0.0, 1.0));
 }
 
 void add_depth_options(CLI::App& verb, SimulateArguments& a) {
@@ -72,12 +73,12 @@ void add_depth_options(CLI::App& verb, SimulateArguments& a) {
                 "No holes in the shadow of the projector's light");
   verb.add_option("--max-incidence-deg", a.max_incidence_deg,
                   "Holes where a surface is more slanted than this; 90: no limit (default: 80)")
-      ->check(CLI::Range(1.0, 90.0));
+      ->check(number_between(1.0, 90.0));
   verb.add_option("--border-px", depth.border_px, "Pixels without depth along the image's edges")
       ->capture_default_str();
   verb.add_option("--flying-pixels", depth.flying_pixels,
                   "Share of the pixels beside a jump in depth that float in between")
-      ->check(CLI::Range(0.0, 1.0))
+      ->check(number_between(0.0, 1.0))
       ->capture_default_str();
 }
 
@@ -90,7 +91,7 @@ void add_depth_format_options(CLI::App& verb, SimulateArguments& a) {
   }
   verb.add_option("--depth-scale-mm", a.settings.recording.depth_scale_mm,
                   "Millimetres a count of the depth images")
-      ->check(CLI::Range(1e-3, 100.0))
+      ->check(number_between(1e-3, 100.0))
       ->capture_default_str();
 }
 
