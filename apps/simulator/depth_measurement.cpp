@@ -13,12 +13,11 @@ namespace {
 
 constexpr std::size_t kBlock = 128;
 constexpr std::size_t kTailBlock = 32;  // nine of ten have no number that far out
-constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
 
 /// Standard normal numbers, one for each pixel.
-VANTAGE_MULTIVERSION
-void fill_noise(std::uint32_t first_pixel, std::uint32_t key0, std::uint32_t key1,
-                std::size_t count, float* noise) {
+[[gnu::always_inline]] inline void fill_noise_body(std::uint32_t first_pixel, std::uint32_t key0,
+                                                   std::uint32_t key1, std::size_t count,
+                                                   float* noise) {
   float x[kBlock], w[kBlock];
   for (std::size_t i = 0; i < count; ++i) {
     x[i] = signed_unit(hash32(first_pixel + std::uint32_t(i), key0, key1));
@@ -34,6 +33,7 @@ void fill_noise(std::uint32_t first_pixel, std::uint32_t key0, std::uint32_t key
     }
   }
 }
+constexpr Multiversion<fill_noise_body> fill_noise;
 
 /// To the nearest whole number, by what a float of this size has no room for.
 [[gnu::always_inline]] inline float rounded(float x) {
@@ -41,16 +41,16 @@ void fill_noise(std::uint32_t first_pixel, std::uint32_t key0, std::uint32_t key
   return (x + kShift) - kShift;
 }
 
-VANTAGE_MULTIVERSION
-bool any_known(const float* metres, std::size_t count) {
+[[gnu::always_inline]] inline bool any_known_body(const float* metres, std::size_t count) {
   int known = 0;
   for (std::size_t i = 0; i < count; ++i) known |= int(metres[i] == metres[i]);
   return known != 0;
 }
+constexpr Multiversion<any_known_body> any_known;
 
-VANTAGE_MULTIVERSION
-void measure_block(const DepthMeasurement::Numbers& n, const float* noise, std::size_t count,
-                   float* metres) {
+[[gnu::always_inline]] inline void measure_block_body(const DepthMeasurement::Numbers& n,
+                                                      const float* noise, std::size_t count,
+                                                      float* metres) {
   const float steps = n.step_px > 0 ? 1 / n.step_px : 0;
   for (std::size_t i = 0; i < count; ++i) {
     const float disparity = n.focal_times_baseline / metres[i] + n.sigma_px * noise[i];
@@ -58,9 +58,10 @@ void measure_block(const DepthMeasurement::Numbers& n, const float* noise, std::
     const float depth = n.focal_times_baseline / stepped;
     const bool found =
         (stepped > 0) & (stepped <= n.max_disparity_px) & (depth >= n.near_m) & (depth <= n.far_m);
-    metres[i] = found ? depth : kNaN;
+    metres[i] = found ? depth : DepthImage::kUnknown;
   }
 }
+constexpr Multiversion<measure_block_body> measure_block;
 
 }  // namespace
 

@@ -9,9 +9,10 @@
 namespace vantage {
 namespace {
 
-VANTAGE_MULTIVERSION
-void irradiance(const std::array<Eigen::Vector3f, 4>& gaussian, const Eigen::Vector3f& facing,
-                float scale, PointsView position, PointsView normal, float* __restrict light) {
+[[gnu::always_inline]] inline void irradiance_body(const std::array<Eigen::Vector3f, 4>& gaussian,
+                                                   const Eigen::Vector3f& facing, float scale,
+                                                   PointsView position, PointsView normal,
+                                                   float* __restrict light) {
   for (std::size_t i = 0; i < position.size; ++i) {
     float sum = 0;
     for (const Eigen::Vector3f& q : gaussian) {
@@ -24,6 +25,7 @@ void irradiance(const std::array<Eigen::Vector3f, 4>& gaussian, const Eigen::Vec
     light[i] = scale * sum;
   }
 }
+constexpr Multiversion<irradiance_body> irradiance;
 
 }  // namespace
 

@@ -2,21 +2,20 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "vantage/raycore/multiversion.hpp"
 
 namespace vantage::detail {
 namespace {
 
-constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
 using Numbers = StereoView::Numbers;
 
 /// Pixels of a chunk, tile by tile, and the directions of their rays, scaled so that t is the
 /// depth.
-VANTAGE_MULTIVERSION
-void make_rays(const Numbers& n, float first_u, float first_v, float* __restrict u,
-               float* __restrict v, float* __restrict x, float* __restrict y, float* __restrict z) {
+[[gnu::always_inline]] inline void make_rays_body(const Numbers& n, float first_u, float first_v,
+                                                  float* __restrict u, float* __restrict v,
+                                                  float* __restrict x, float* __restrict y,
+                                                  float* __restrict z) {
   for (std::size_t i = 0; i < kChunkRays; ++i) {
     u[i] = first_u + float(int(i / 16 * 4 + i % 4));
     v[i] = first_v + float(int(i / 4 % 4));
@@ -27,6 +26,7 @@ void make_rays(const Numbers& n, float first_u, float first_v, float* __restrict
     z[i] = n.corner.z() + u[i] * n.across.z() + v[i] * n.down.z();
   }
 }
+constexpr Multiversion<make_rays_body> make_rays;
 
 struct RayArrays {
   const float *u, *v, *dx, *dy, *dz, *t, *nx, *ny, *nz;
@@ -34,9 +34,9 @@ struct RayArrays {
 
 /// Depths of what is in range, inside the borders and not too slanted, NaN for the rest; and the
 /// points from which the other devices are looked for: off the surface by a little, on its front.
-VANTAGE_MULTIVERSION
-void judge_hits(const Numbers& n, const RayArrays& r, float* __restrict depth, float* __restrict x,
-                float* __restrict y, float* __restrict z) {
+[[gnu::always_inline]] inline void judge_hits_body(const Numbers& n, const RayArrays& r,
+                                                   float* __restrict depth, float* __restrict x,
+                                                   float* __restrict y, float* __restrict z) {
   for (std::size_t i = 0; i < kChunkRays; ++i) {
     const float t = r.t[i], dx = r.dx[i], dy = r.dy[i], dz = r.dz[i];
     const float along = r.nx[i] * dx + r.ny[i] * dy + r.nz[i] * dz;
@@ -45,7 +45,7 @@ void judge_hits(const Numbers& n, const RayArrays& r, float* __restrict depth, f
                        (r.u[i] <= n.last_u) & (r.v[i] >= n.first_v) & (r.v[i] <= n.last_v) &
                        (r.u[i] - n.shift_m_px / t >= n.first_u) &
                        (cosine_squared >= n.least_cosine_squared);
-    depth[i] = found ? t : kNaN;
+    depth[i] = found ? t : DepthImage::kUnknown;
     // What is not found gets any point that a ray may start in.
     const float reach = t <= n.far_m ? t : n.far_m;
     const float off = (along > 0 ? -1e-4f : 1e-4f) * (reach > 0.1f ? reach : 0.1f);
@@ -54,13 +54,15 @@ void judge_hits(const Numbers& n, const RayArrays& r, float* __restrict depth, f
     z[i] = n.centre.z() + reach * dz + off * r.nz[i];
   }
 }
+constexpr Multiversion<judge_hits_body> judge_hits;
 
 /// Moves the points of those tiles where anything is found to the front.
 /// @returns how many tiles these are; `tiles` gets their numbers.
-VANTAGE_MULTIVERSION
-std::size_t keep_found_tiles(const float* __restrict depth, float* __restrict x,
-                             float* __restrict y, float* __restrict z,
-                             std::uint8_t* __restrict tiles) {
+[[gnu::always_inline]] inline std::size_t keep_found_tiles_body(const float* __restrict depth,
+                                                                float* __restrict x,
+                                                                float* __restrict y,
+                                                                float* __restrict z,
+                                                                std::uint8_t* __restrict tiles) {
   std::size_t kept = 0;
   for (std::size_t tile = 0; tile < kChunkTiles; ++tile) {
     int found = 0;
@@ -73,15 +75,17 @@ std::size_t keep_found_tiles(const float* __restrict depth, float* __restrict x,
   }
   return kept;
 }
+constexpr Multiversion<keep_found_tiles_body> keep_found_tiles;
 
-VANTAGE_MULTIVERSION
-void remove_blocked(const std::uint8_t* __restrict blocked, const std::uint8_t* __restrict tiles,
-                    std::size_t count, float* __restrict depth) {
+[[gnu::always_inline]] inline void remove_blocked_body(const std::uint8_t* __restrict blocked,
+                                                       const std::uint8_t* __restrict tiles,
+                                                       std::size_t count, float* __restrict depth) {
   for (std::size_t k = 0; k < count; ++k) {
     float* z = depth + 16 * tiles[k];
-    for (std::size_t i = 0; i < 16; ++i) z[i] = blocked[16 * k + i] ? kNaN : z[i];
+    for (std::size_t i = 0; i < 16; ++i) z[i] = blocked[16 * k + i] ? DepthImage::kUnknown : z[i];
   }
 }
+constexpr Multiversion<remove_blocked_body> remove_blocked;
 
 Numbers numbers_of(const PinholeCamera& camera, const StereoSensor& sensor) {
   const Intrinsics& k = camera.intrinsics();

@@ -7,6 +7,7 @@
 #include <new>
 
 #include "command.hpp"
+#include "vantage/raycore/instruction_set.hpp"
 #include "version.hpp"
 
 namespace {
@@ -22,6 +23,7 @@ void set_up_log() {
 
 ExitCode run(const Action& action) {
   try {
+    instruction_set();  // a wrong VANTAGE_MAX_ISA is said before any work
     return action();
   } catch (const Error& error) {
     spdlog::error("{}", error.what());

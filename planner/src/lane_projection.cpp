@@ -9,9 +9,10 @@ struct BoxPointers {
   const double *x, *y, *z, *half_x, *half_y, *half_z;
 };
 
-VANTAGE_MULTIVERSION
-void project_all(const Projection& p, const PointLanes& points, std::size_t count,
-                 double* __restrict u, double* __restrict v, double* __restrict depth) {
+[[gnu::always_inline]] inline void project_all_body(const Projection& p, const PointArrays& points,
+                                                    std::size_t count, double* __restrict u,
+                                                    double* __restrict v,
+                                                    double* __restrict depth) {
   for (std::size_t i = 0; i < count; ++i) {
     const double dx = points.x[i] - p.eye[0], dy = points.y[i] - p.eye[1],
                  dz = points.z[i] - p.eye[2];
@@ -24,9 +25,10 @@ void project_all(const Projection& p, const PointLanes& points, std::size_t coun
     depth[i] = z;
   }
 }
+constexpr Multiversion<project_all_body> project_all;
 
-VANTAGE_MULTIVERSION
-void project_eight(const Projection& p, const BoxPointers& boxes, BoxImages& images) {
+[[gnu::always_inline]] inline void project_eight_body(const Projection& p, const BoxPointers& boxes,
+                                                      BoxImages& images) {
   for (std::size_t i = 0; i < kBoxLanes; ++i) {
     images.left[i] = images.top[i] = images.nearest[i] = 1e300;
     images.right[i] = images.bottom[i] = images.farthest[i] = -1e300;
@@ -50,6 +52,7 @@ void project_eight(const Projection& p, const BoxPointers& boxes, BoxImages& ima
     }
   }
 }
+constexpr Multiversion<project_eight_body> project_eight;
 
 }  // namespace
 
@@ -62,7 +65,7 @@ Projection::Projection(const PinholeCamera& camera)
   for (int i = 0; i < 9; ++i) r[i] = camera.T_world_cam().rotation()(i % 3, i / 3);
 }
 
-void project_points(const Projection& p, const PointLanes& points, std::size_t count, double* u,
+void project_points(const Projection& p, const PointArrays& points, std::size_t count, double* u,
                     double* v, double* depth) {
   project_all(p, points, count, u, v, depth);
 }

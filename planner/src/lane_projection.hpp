@@ -19,12 +19,12 @@ struct Projection {
 };
 
 /// One array per coordinate.
-struct PointLanes {
+struct PointArrays {
   const double *x, *y, *z;
 };
 
 /// Pixels are of no use where the depth is not positive.
-void project_points(const Projection& p, const PointLanes& points, std::size_t count, double* u,
+void project_points(const Projection& p, const PointArrays& points, std::size_t count, double* u,
                     double* v, double* depth);
 
 /// Where eight boxes' corners are on the image at most. Pixels are of no use where `nearest` is not

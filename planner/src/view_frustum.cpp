@@ -15,9 +15,10 @@ struct Lanes {
 
 /// For each of eight boxes, how far its deepest corner and its least deep one are inside, at the
 /// plane where that is least.
-VANTAGE_MULTIVERSION
-void depths_inside(const std::array<ViewPlane, 6>& planes, const Lanes& boxes,
-                   double* __restrict deepest, double* __restrict least) {
+[[gnu::always_inline]] inline void depths_inside_body(const std::array<ViewPlane, 6>& planes,
+                                                      const Lanes& boxes,
+                                                      double* __restrict deepest,
+                                                      double* __restrict least) {
   for (std::size_t i = 0; i < kBlocksPerParent; ++i) deepest[i] = least[i] = 1e300;
   for (const ViewPlane& p : planes) {
     const double ax = std::fabs(p.x), ay = std::fabs(p.y), az = std::fabs(p.z);
@@ -31,6 +32,7 @@ void depths_inside(const std::array<ViewPlane, 6>& planes, const Lanes& boxes,
     }
   }
 }
+constexpr Multiversion<depths_inside_body> depths_inside;
 
 }  // namespace
 

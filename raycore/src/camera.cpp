@@ -58,18 +58,21 @@ struct ViewBounds {
          (v + b.top * z >= 0) & (v + b.bottom * z < 0);
 }
 
-VANTAGE_MULTIVERSION
-void in_view_kernel(const WorldToCamera& c, const ViewBounds& b, const float* __restrict px,
-                    const float* __restrict py, const float* __restrict pz, std::size_t count,
-                    std::uint8_t* __restrict result) {
+[[gnu::always_inline]] inline void in_view_body(const WorldToCamera& c, const ViewBounds& b,
+                                                const float* __restrict px,
+                                                const float* __restrict py,
+                                                const float* __restrict pz, std::size_t count,
+                                                std::uint8_t* __restrict result) {
   for (std::size_t i = 0; i < count; ++i) {
     result[i] = std::uint8_t(is_in_view(c, b, px[i], py[i], pz[i]));
   }
 }
+constexpr Multiversion<in_view_body> in_view_kernel;
 
-VANTAGE_MULTIVERSION
-void in_view_packets_kernel(const WorldToCamera& c, const ViewBounds& b, PointsView points,
-                            const std::uint32_t* packets, std::size_t count, std::uint16_t* masks) {
+[[gnu::always_inline]] inline void in_view_packets_body(const WorldToCamera& c, const ViewBounds& b,
+                                                        PointsView points,
+                                                        const std::uint32_t* packets,
+                                                        std::size_t count, std::uint16_t* masks) {
   for (std::size_t i = 0; i < count; ++i) {
     const PointsView packet = points.part(packets[i] * kPacketWidth, kPacketWidth);
     std::uint8_t flags[kPacketWidth];
@@ -79,12 +82,14 @@ void in_view_packets_kernel(const WorldToCamera& c, const ViewBounds& b, PointsV
     masks[i] = detail::to_bits(flags);
   }
 }
+constexpr Multiversion<in_view_packets_body> in_view_packets_kernel;
 
-VANTAGE_MULTIVERSION
-void project_kernel(const WorldToCamera& c, float fx, float fy, float cx, float cy,
-                    const float* __restrict px, const float* __restrict py,
-                    const float* __restrict pz, std::size_t count, float* __restrict u,
-                    float* __restrict v, float* __restrict depth) {
+[[gnu::always_inline]] inline void project_body(const WorldToCamera& c, float fx, float fy,
+                                                float cx, float cy, const float* __restrict px,
+                                                const float* __restrict py,
+                                                const float* __restrict pz, std::size_t count,
+                                                float* __restrict u, float* __restrict v,
+                                                float* __restrict depth) {
   for (std::size_t i = 0; i < count; ++i) {
     const float dx = px[i] - c.cx, dy = py[i] - c.cy, dz = pz[i] - c.cz;
     const float z = c.r[6] * dx + c.r[7] * dy + c.r[8] * dz;
@@ -93,6 +98,7 @@ void project_kernel(const WorldToCamera& c, float fx, float fy, float cx, float 
     depth[i] = z;
   }
 }
+constexpr Multiversion<project_body> project_kernel;
 
 void check_sizes(std::initializer_list<std::size_t> sizes, std::size_t expected) {
   for (const std::size_t size : sizes) {

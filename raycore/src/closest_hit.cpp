@@ -47,17 +47,19 @@ template <std::size_t kOriginStride>
   return ok;
 }
 
-VANTAGE_MULTIVERSION
-bool trace_rays(const PacketJob& job, const RayLanes& rays, std::size_t first, std::size_t last,
-                const HitLanes& out) {
+[[gnu::always_inline]] inline bool trace_rays_body(const PacketJob& job, const RayLanes& rays,
+                                                   std::size_t first, std::size_t last,
+                                                   const HitLanes& out) {
   return trace<1>(job, rays, first, last, out);
 }
+constexpr Multiversion<trace_rays_body> trace_rays;
 
-VANTAGE_MULTIVERSION
-bool trace_from_point(const PacketJob& job, const RayLanes& rays, std::size_t first,
-                      std::size_t last, const HitLanes& out) {
+[[gnu::always_inline]] inline bool trace_from_point_body(const PacketJob& job, const RayLanes& rays,
+                                                         std::size_t first, std::size_t last,
+                                                         const HitLanes& out) {
   return trace<0>(job, rays, first, last, out);
 }
+constexpr Multiversion<trace_from_point_body> trace_from_point;
 
 /// Embree gives an instance's normal in the instance's frame.
 void turn_instance_normals(const SceneImpl& scene, std::size_t first, std::size_t last,

@@ -24,8 +24,7 @@ std::size_t checked_count(int width, int height, std::string_view where) {
 
 /// Zero and infinity become unknown.
 /// @returns whether no depth is negative.
-VANTAGE_MULTIVERSION
-bool mark_unknown(float* metres, std::size_t size) {
+[[gnu::always_inline]] inline bool mark_unknown_body(float* metres, std::size_t size) {
   int negative = 0;
   for (std::size_t i = 0; i < size; ++i) {
     const float z = metres[i];
@@ -35,6 +34,7 @@ bool mark_unknown(float* metres, std::size_t size) {
   }
   return negative == 0;
 }
+constexpr Multiversion<mark_unknown_body> mark_unknown;
 
 [[noreturn]] void refuse_negative(std::span<const float> metres, int width,
                                   std::string_view where) {

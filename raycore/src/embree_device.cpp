@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 
 #include "vantage/raycore/error.hpp"
+#include "vantage/raycore/instruction_set.hpp"
 
 namespace vantage::detail {
 
-EmbreeDevice::EmbreeDevice() : device_(rtcNewDevice(nullptr)) {
+EmbreeDevice::EmbreeDevice()
+    : device_(rtcNewDevice(fmt::format("max_isa={}", name_of(instruction_set())).c_str())) {
   if (device_ != nullptr) return;
   throw Error(ErrorCode::out_of_resources, "scene", "Embree cannot be started on this machine");
 }

@@ -30,9 +30,8 @@ template <std::size_t kOriginStride, bool kFull>
     const float oy = r.org_y[i * kOriginStride];
     const float oz = r.org_z[i * kOriginStride];
     const float dx = r.dir_x[i], dy = r.dir_y[i], dz = r.dir_z[i];
-    rays.org_x[lane] = ox, rays.org_y[lane] = oy, rays.org_z[lane] = oz;
-    rays.dir_x[lane] = dx, rays.dir_y[lane] = dy, rays.dir_z[lane] = dz;
     const int ok = valid_ray(ox, oy, oz, dx, dy, dz);
+    set_ray(rays, lane, ok, ox, oy, oz, dx, dy, dz);
     refused |= 1 - ok;
     valid[lane] = kFull ? -ok : -(ok & int(lane < count));
   }

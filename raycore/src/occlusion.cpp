@@ -29,10 +29,9 @@ template <std::size_t kToStride, bool kFull>
     const float tx = s.to_x[i * kToStride];
     const float ty = s.to_y[i * kToStride];
     const float tz = s.to_z[i * kToStride];
-    rays.org_x[lane] = ox, rays.org_y[lane] = oy, rays.org_z[lane] = oz;
-    rays.dir_x[lane] = tx - ox, rays.dir_y[lane] = ty - oy, rays.dir_z[lane] = tz - oz;
-    rays.tfar[lane] = 1;
     const int ok = valid_segment(ox, oy, oz, tx, ty, tz);
+    set_ray(rays, lane, ok, ox, oy, oz, tx - ox, ty - oy, tz - oz);
+    rays.tfar[lane] = kSegmentEnd;
     refused |= 1 - ok;
     valid[lane] = kFull ? -ok : -(ok & int(lane < count));
   }
@@ -62,21 +61,23 @@ template <std::size_t kToStride>
   return ok;
 }
 
-VANTAGE_MULTIVERSION
-bool trace_pairs(const PacketJob& job, const SegmentLanes& s, std::size_t first, std::size_t last,
-                 std::uint8_t* result) {
+[[gnu::always_inline]] inline bool trace_pairs_body(const PacketJob& job, const SegmentLanes& s,
+                                                    std::size_t first, std::size_t last,
+                                                    std::uint8_t* result) {
   return trace<1>(job, s, first, last, result);
 }
+constexpr Multiversion<trace_pairs_body> trace_pairs;
 
-VANTAGE_MULTIVERSION
-bool trace_to_point(const PacketJob& job, const SegmentLanes& s, std::size_t first,
-                    std::size_t last, std::uint8_t* result) {
+[[gnu::always_inline]] inline bool trace_to_point_body(const PacketJob& job, const SegmentLanes& s,
+                                                       std::size_t first, std::size_t last,
+                                                       std::uint8_t* result) {
   return trace<0>(job, s, first, last, result);
 }
+constexpr Multiversion<trace_to_point_body> trace_to_point;
 
 void occluded_batch(const SceneImpl& scene, PointsView from, const PointLanes& to,
                     std::span<std::uint8_t> result, RayOrder order) {
-  const PacketJob job{scene.top, scene.use_coherent(order == RayOrder::coherent), 1};
+  const PacketJob job{scene.top, scene.use_coherent(order == RayOrder::coherent), kSegmentEnd};
   const SegmentLanes lanes{from.x, from.y, from.z, to.view.x, to.view.y, to.view.z};
   const auto kernel = to.stride == 0 ? trace_to_point : trace_pairs;
   const bool ok = for_each_block(from.size, [&](std::size_t first, std::size_t last) {
@@ -96,7 +97,7 @@ bool Scene::occluded(const Eigen::Vector3f& from, const Eigen::Vector3f& to) con
   RTCRay ray{};
   ray.org_x = from.x(), ray.org_y = from.y(), ray.org_z = from.z();
   ray.dir_x = direction.x(), ray.dir_y = direction.y(), ray.dir_z = direction.z();
-  ray.tfar = 1;
+  ray.tfar = detail::kSegmentEnd;
   ray.mask = detail::kAllMasks;
   detail::QueryContext(false).occluded1(impl_->top, &ray);
   return ray.tfar < 0;

@@ -23,8 +23,7 @@ struct PacketQuery {
 };
 
 /// @returns false if a ray that was wanted is none that Embree may see.
-VANTAGE_MULTIVERSION
-bool trace_packets(const PacketQuery& q, std::uint16_t* hidden) {
+[[gnu::always_inline]] inline bool trace_packets_body(const PacketQuery& q, std::uint16_t* hidden) {
   QueryContext context(false);
   alignas(64) RTCRay16 rays;
   alignas(64) int valid[kPacketWidth];
@@ -37,11 +36,9 @@ bool trace_packets(const PacketQuery& q, std::uint16_t* hidden) {
     if (wanted == 0) continue;
     for (int lane = 0; lane < int(kPacketWidth); ++lane) {
       const float ox = from.x[lane], oy = from.y[lane], oz = from.z[lane];
-      rays.org_x[lane] = ox, rays.org_y[lane] = oy, rays.org_z[lane] = oz;
-      rays.dir_x[lane] = q.to_x - ox, rays.dir_y[lane] = q.to_y - oy;
-      rays.dir_z[lane] = q.to_z - oz;
-      rays.tfar[lane] = 1;
       const int ok = valid_segment(ox, oy, oz, q.to_x, q.to_y, q.to_z);
+      set_ray(rays, std::size_t(lane), ok, ox, oy, oz, q.to_x - ox, q.to_y - oy, q.to_z - oz);
+      rays.tfar[lane] = kSegmentEnd;
       const int asked = (wanted >> lane) & 1;
       refused |= asked & ~ok;
       valid[lane] = -(ok & asked);
@@ -53,6 +50,7 @@ bool trace_packets(const PacketQuery& q, std::uint16_t* hidden) {
   }
   return refused == 0;
 }
+constexpr Multiversion<trace_packets_body> trace_packets;
 
 [[noreturn]] void refuse_first_wanted(const PacketQuery& q) {
   const Eigen::Vector3f to(q.to_x, q.to_y, q.to_z);

@@ -58,6 +58,20 @@ inline std::uint16_t to_bits(const std::uint8_t (&flags)[kPacketWidth]) {
 void check_packets(std::size_t points, std::span<const std::uint32_t> packets,
                    std::initializer_list<std::size_t> sizes);
 
+/// Where segments end, in parts of their length: to touch is to be occluded, and the distance that
+/// Embree computes is off by up to three of a float's last bits where there is no FMA.
+inline constexpr float kSegmentEnd = 1 + 0x1p-21f;
+
+/// Puts a ray into a lane; where Embree may not see it, one that it may see. To leave such a lane
+/// out by the packet's mask is not enough: on machines without AVX-512 Embree looks at all of them.
+[[gnu::always_inline]] inline void set_ray(RTCRay16& rays, std::size_t lane, bool valid, float ox,
+                                           float oy, float oz, float dx, float dy, float dz) {
+  rays.org_x[lane] = valid ? ox : 0, rays.org_y[lane] = valid ? oy : 0;
+  rays.org_z[lane] = valid ? oz : 0;
+  rays.dir_x[lane] = valid ? dx : 1, rays.dir_y[lane] = valid ? dy : 1;
+  rays.dir_z[lane] = valid ? dz : 1;
+}
+
 /// What all rays of a query share.
 struct PacketJob {
   RTCScene scene;

@@ -53,15 +53,16 @@ struct LaneParts {
     const float z = its_z > least_z ? its_z : least_z, inverse_z = 1 / z;
     const float u = (u0 + t * d.u[i]) * inverse_z, v = (v0 + t * d.v[i]) * inverse_z;
     const float w = height * inverse_z;
-    ray.org_x[i] = u, ray.org_y[i] = v, ray.org_z[i] = w;
-    ray.dir_x[i] = d.u[i] - u * dz, ray.dir_y[i] = d.v[i] - v * dz, ray.dir_z[i] = -w * dz;
+    // A ray that has left the box may have gone infinitely far.
+    const bool asked = part.asked[i] != 0;
+    set_ray(ray, i, asked, u, v, w, d.u[i] - u * dz, d.v[i] - v * dz, -w * dz);
     const float left = t_stop[i] - t, all = left > 0 ? left : 0, some = (kMostDeeper - 1) * z / dz;
     const float length = (dz > 0) & (some < all) ? some : all;
     const float end_z = z + length * dz, last_z = end_z > least_z ? end_z : least_z;
     part.depth[i] = z;
     part.length[i] = length;
     ray.tnear[i] = 0;
-    ray.tfar[i] = length / last_z;
+    ray.tfar[i] = asked ? length / last_z : 0;
     ray.mask[i] = mask;
     packet.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
     packet.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;

@@ -19,7 +19,8 @@ namespace vantage::detail {
     ray.org_y[i] = job.shell.origin[1];
     ray.org_z[i] = job.shell.origin[2];
     ray.dir_x[i] = w.dir_x[i], ray.dir_y[i] = w.dir_y[i], ray.dir_z[i] = w.dir_z[i];
-    ray.tnear[i] = w.t[i] + job.step;
+    const float t = w.t[i];
+    ray.tnear[i] = w.walking[i] != 0 ? t + job.step : 0;
     // Beyond the box, too: what is inside there is inside.
     ray.tfar[i] = std::numeric_limits<float>::infinity();
     ray.mask[i] = kAllMasks;

@@ -117,9 +117,9 @@ void ask_again(const WalkVolume& volume, QueryContext& context, Walkers& w, cons
   }
 }
 
-VANTAGE_MULTIVERSION
-void walk_each(const WalkJob& job, const Intrinsics& k, const PixelRotation& R,
-               const PixelTile* tiles, std::size_t count, UnseenHits* hits) {
+[[gnu::always_inline]] inline void walk_each_body(const WalkJob& job, const Intrinsics& k,
+                                                  const PixelRotation& R, const PixelTile* tiles,
+                                                  std::size_t count, UnseenHits* hits) {
   QueryContext context(true);
   Walkers walkers;
   prepare(walkers.packet.ray);
@@ -129,6 +129,7 @@ void walk_each(const WalkJob& job, const Intrinsics& k, const PixelRotation& R,
     store(job, walkers, hits[tile]);
   }
 }
+constexpr Multiversion<walk_each_body> walk_each;
 
 }  // namespace
 

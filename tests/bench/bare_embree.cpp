@@ -12,9 +12,9 @@ namespace {
 constexpr std::size_t kWidth = 16;
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
-VANTAGE_MULTIVERSION
-void trace_occluded16(RTCScene scene, bool coherent, RTCRay16* packets, std::size_t size,
-                      std::uint8_t* result) {
+[[gnu::always_inline]] inline void trace_occluded16_body(RTCScene scene, bool coherent,
+                                                         RTCRay16* packets, std::size_t size,
+                                                         std::uint8_t* result) {
   detail::QueryContext context(coherent);
   alignas(64) int valid[kWidth];
   std::fill(valid, valid + kWidth, -1);
@@ -24,9 +24,10 @@ void trace_occluded16(RTCScene scene, bool coherent, RTCRay16* packets, std::siz
     for (std::size_t lane = 0; lane < kWidth; ++lane) result[i + lane] = packets->tfar[lane] < 0;
   }
 }
+constexpr Multiversion<trace_occluded16_body> trace_occluded16;
 
-VANTAGE_MULTIVERSION
-void trace_intersect16(RTCScene scene, bool coherent, RTCRayHit16* packets, Hits& hits) {
+[[gnu::always_inline]] inline void trace_intersect16_body(RTCScene scene, bool coherent,
+                                                          RTCRayHit16* packets, Hits& hits) {
   detail::QueryContext context(coherent);
   alignas(64) int valid[kWidth];
   std::fill(valid, valid + kWidth, -1);
@@ -50,6 +51,7 @@ void trace_intersect16(RTCScene scene, bool coherent, RTCRayHit16* packets, Hits
     copy(hits.normal.z, i, packets->hit.Ng_z);
   }
 }
+constexpr Multiversion<trace_intersect16_body> trace_intersect16;
 
 RTCRay single(const Workload& work, std::size_t i) {
   RTCRay ray{};

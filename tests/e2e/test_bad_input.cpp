@@ -110,6 +110,16 @@ TEST_CASE("damaged meshes") {
                       {"claims.ply", "4000000000"});
 }
 
+TEST_CASE("an instruction set that is none") {
+  const TemporaryFolder folder;
+  const auto result =
+      run_vantage("demo -o '" + (folder / "out").string() + "'", "VANTAGE_MAX_ISA=avx3");
+  CHECK(result.exit_code == 3);
+  CHECK(result.err.find("VANTAGE_MAX_ISA: the environment variable is 'avx3'; expected sse4.2") !=
+        std::string::npos);
+  CHECK_FALSE(fs::exists(folder / "out"));
+}
+
 TEST_CASE("wrong usage is exit code 2") {
   const TemporaryFolder folder;
   const std::string scene = test::write_scene(folder).string();

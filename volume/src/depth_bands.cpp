@@ -26,8 +26,8 @@ struct RowInput {
   int blocks_y, blocks_z;
 };
 
-VANTAGE_MULTIVERSION
-void bands_kernel(const RowInput& in, float* __restrict front, float* __restrict back) {
+[[gnu::always_inline]] inline void bands_body(const RowInput& in, float* __restrict front,
+                                              float* __restrict back) {
   for (int u = 0; u < in.width; ++u) {
     const float d = in.depth[u];
     const float noise = in.noise * d * d;
@@ -37,10 +37,11 @@ void bands_kernel(const RowInput& in, float* __restrict front, float* __restrict
     back[u] = known ? d + half : kNothing;
   }
 }
+constexpr Multiversion<bands_body> bands_kernel;
 
-VANTAGE_MULTIVERSION
-void points_kernel(const RowInput& in, const float* __restrict back, std::int32_t* __restrict block,
-                   std::uint16_t* __restrict offset) {
+[[gnu::always_inline]] inline void points_body(const RowInput& in, const float* __restrict back,
+                                               std::int32_t* __restrict block,
+                                               std::uint16_t* __restrict offset) {
   for (int u = 0; u < in.width; ++u) {
     const bool known = back[u] > 0;
     const double d = known ? double(in.depth[u]) : 0.0;
@@ -54,12 +55,12 @@ void points_kernel(const RowInput& in, const float* __restrict back, std::int32_
     offset[u] = std::uint16_t(((i & 7) << 6) | ((j & 7) << 3) | (k & 7));
   }
 }
+constexpr Multiversion<points_body> points_kernel;
 
-VANTAGE_MULTIVERSION
-void compare_kernel(const float* __restrict front, const float* __restrict back, int width,
-                    int height, const float* __restrict u, const float* __restrict v,
-                    const float* __restrict depth, std::size_t count,
-                    std::uint8_t* __restrict through, std::uint8_t* __restrict surface) {
+[[gnu::always_inline]] inline void compare_body(
+    const float* __restrict front, const float* __restrict back, int width, int height,
+    const float* __restrict u, const float* __restrict v, const float* __restrict depth,
+    std::size_t count, std::uint8_t* __restrict through, std::uint8_t* __restrict surface) {
   for (std::size_t i = 0; i < count; ++i) {
     // Points in view are at u, v >= -0.5 but for rounding, which may also lead over the far border:
     // cutting off the fraction is rounding down.
@@ -70,6 +71,7 @@ void compare_kernel(const float* __restrict front, const float* __restrict back,
     surface[i] = std::uint8_t((depth[i] >= front[pixel]) & (depth[i] <= back[pixel]));
   }
 }
+constexpr Multiversion<compare_body> compare_kernel;
 
 RowInput row_input(const PinholeCamera& camera, const DepthImage& depth, const GridFrame& frame,
                    const VolumeOptions& options, int v) {
