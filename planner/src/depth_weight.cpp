@@ -12,7 +12,6 @@
 namespace vantage::detail {
 namespace {
 
-constexpr int kPixels = PixelTile::kPixels, kSide = PixelTile::kSide;
 constexpr double kMaxPower = 16;
 
 // "GCC unroll 1" before the loops over a tile's pixels: unrolled before the vectoriser comes to see
@@ -38,8 +37,9 @@ struct Counted {
 [[gnu::always_inline]] inline void mask_of(const Counted& c, PixelTile tile, const TileHits& hits,
                                            std::int32_t* mask) {
 #pragma GCC unroll 1
-  for (int i = 0; i < kPixels; ++i) {
-    const int u = kSide * tile.column + i % kSide, v = kSide * tile.row + i / kSide;
+  for (int i = 0; i < PixelTile::kPixels; ++i) {
+    const int u = PixelTile::kSide * tile.column + i % PixelTile::kSide,
+              v = PixelTile::kSide * tile.row + i / PixelTile::kSide;
     mask[i] = -std::int32_t((u < c.width) & (v < c.height) & (hits.object[i] == c.shadow) &
                             (hits.t[i] >= c.near_m));
   }
@@ -48,7 +48,7 @@ struct Counted {
 [[gnu::always_inline]] inline void part_of_far(const Counted& c, const TileHits& hits,
                                                double* part) {
 #pragma GCC unroll 1
-  for (int i = 0; i < kPixels; ++i) {
+  for (int i = 0; i < PixelTile::kPixels; ++i) {
     const double d = double(hits.t[i]) * c.per_far;
     part[i] = d < 1 ? d : 1;
   }
@@ -60,7 +60,7 @@ struct Counted {
   constexpr double kIntegers = 0x1p52;
   Score sum = 0;
 #pragma GCC unroll 1
-  for (int i = 0; i < kPixels; ++i) {
+  for (int i = 0; i < PixelTile::kPixels; ++i) {
     const Score rounded = std::bit_cast<Score>(weights[i] * DepthWeight::kOne + kIntegers) -
                           std::bit_cast<Score>(kIntegers);
     sum += rounded & Score(std::int64_t(mask[i]));
@@ -68,36 +68,39 @@ struct Counted {
   return sum;
 }
 
-VANTAGE_MULTIVERSION
-Score sum_whole_power(const Counted& c, int power, const PixelTile* tiles, const TileHits* hits,
-                      std::size_t count) {
+[[gnu::always_inline]] inline Score sum_whole_power_body(const Counted& c, int power,
+                                                         const PixelTile* tiles,
+                                                         const TileHits* hits, std::size_t count) {
   Score sum = 0;
   for (std::size_t tile = 0; tile < count; ++tile) {
-    alignas(64) std::int32_t mask[kPixels];
-    alignas(64) double part[kPixels], weight[kPixels];
+    alignas(64) std::int32_t mask[PixelTile::kPixels];
+    alignas(64) double part[PixelTile::kPixels], weight[PixelTile::kPixels];
     mask_of(c, tiles[tile], hits[tile], mask);
     part_of_far(c, hits[tile], part);
 #pragma GCC unroll 1
-    for (int i = 0; i < kPixels; ++i) weight[i] = 1;
+    for (int i = 0; i < PixelTile::kPixels; ++i) weight[i] = 1;
     for (int factor = 0; factor < power; ++factor) {
 #pragma GCC unroll 1
-      for (int i = 0; i < kPixels; ++i) weight[i] *= part[i];
+      for (int i = 0; i < PixelTile::kPixels; ++i) weight[i] *= part[i];
     }
     sum += rounded_sum(weight, mask);
   }
   return sum;
 }
+constexpr Multiversion<sum_whole_power_body> sum_whole_power;
 
 Score sum_any_power(const Counted& c, double power, const PixelTile* tiles, const TileHits* hits,
                     std::size_t count) {
   Score sum = 0;
   for (std::size_t tile = 0; tile < count; ++tile) {
-    std::int32_t mask[kPixels];
-    double weight[kPixels];
+    std::int32_t mask[PixelTile::kPixels];
+    double weight[PixelTile::kPixels];
     mask_of(c, tiles[tile], hits[tile], mask);
     part_of_far(c, hits[tile], weight);
 #pragma GCC unroll 1
-    for (int i = 0; i < kPixels; ++i) weight[i] = mask[i] != 0 ? std::pow(weight[i], power) : 0;
+    for (int i = 0; i < PixelTile::kPixels; ++i) {
+      weight[i] = mask[i] != 0 ? std::pow(weight[i], power) : 0;
+    }
     sum += rounded_sum(weight, mask);
   }
   return sum;
@@ -134,11 +137,11 @@ WeightBound DepthWeight::bound(double farthest_m) const {
 
 std::uint16_t shadow_pixels(const Intrinsics& image, const DepthRange& range, ObjectId shadow,
                             PixelTile tile, const TileHits& hits) {
-  std::int32_t mask[kPixels];
+  std::int32_t mask[PixelTile::kPixels];
   mask_of(Counted(image, range, shadow), tile, hits, mask);
   unsigned bits = 0;
 #pragma GCC unroll 1
-  for (int i = 0; i < kPixels; ++i) bits |= unsigned(mask[i] & 1) << i;
+  for (int i = 0; i < PixelTile::kPixels; ++i) bits |= unsigned(mask[i] & 1) << i;
   return std::uint16_t(bits);
 }
 

@@ -100,6 +100,12 @@ double FaceProjector::farthest_m() const {
   return farthest_m + margin_m_;
 }
 
+bool FaceProjector::may_be_grazing() const {
+  return std::any_of(groups_.begin(), groups_.end(), [&](const GroupInView& group) {
+    return !(worst_rounding(faces_.groups[group.index]) < kFlattest);
+  });
+}
+
 /// How far the camera is along the normal of a group whose faces are parallel.
 double FaceProjector::along_m(const FlatFaces::Group& group) const {
   return faces_.list[group.first_face].normal.dot(centre_);

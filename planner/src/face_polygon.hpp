@@ -34,10 +34,11 @@ struct FacePolygon {
 
   /// 1 / depth is at least at_origin + per_u · u + per_v · v (pixels), for certain pixels.
   float at_origin, per_u, per_v;
-  float least_inverse;  ///< of all depths that count
-  double nearest_m;     ///< no ray meets it nearer than this, unless it is grazing
-  double farthest_m;    ///< nor farther than this
-  bool grazing;         ///< seen from so flat that nothing is known of its rays' depths
+  float least_inverse;   ///< of all depths that count
+  double nearest_m;      ///< no ray meets it nearer than this, unless it is grazing
+  double farthest_m;     ///< nor farther than this
+  bool grazing;          ///< seen from so flat that nothing is known of its rays' depths
+  std::uint32_t origin;  ///< whoever makes the polygon may note here what it is of
 };
 
 /// Projects faces into one camera, group by group.
@@ -72,6 +73,9 @@ class FaceProjector {
   /// No ray meets a face farther than this, in the window or beyond, from whatever side, unless it
   /// is grazing.
   double farthest_m() const;
+
+  /// Whether a face of the groups may be seen from so flat that nothing is known of its depths.
+  bool may_be_grazing() const;
 
   /// Calls `visit(face)` for those faces of a group that may look at the camera: all that `project`
   /// and `project_outline` may be asked for until this is called again.

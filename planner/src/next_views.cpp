@@ -40,7 +40,7 @@ class LazyGreedy {
         batch.emplace_back(tools, views_, SiteRange{c, c + 1});
       }
       tbb::parallel_for(std::size_t(0), batch.size(), [&](std::size_t i) {
-        batch[i].prepare(stop);
+        batch[i].prepare(ranking, stop);
         batch[i].score(ranking, stop);
       });
       if (stop.stop_requested()) return std::nullopt;

@@ -41,7 +41,7 @@ Pose aimed(const Eigen::Vector3d& eye, const Eigen::Vector3d& direction, const I
   const Pose axis = Pose::looking_at(eye, eye + direction);
   const Eigen::Vector3d middle(((k.width - 1) / 2.0 - k.cx) / k.fx,
                                ((k.height - 1) / 2.0 - k.cy) / k.fy, 1);
-  const auto turn = Eigen::Quaterniond::FromTwoVectors(middle, Eigen::Vector3d::UnitZ());
+  const Eigen::Quaterniond turn = rotation_between(middle, Eigen::Vector3d::UnitZ());
   return Pose::from_rotation(axis.rotation() * turn.toRotationMatrix(), eye);
 }
 

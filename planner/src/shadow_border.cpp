@@ -116,23 +116,24 @@ class BorderScan {
 
   template <class MayWiden>
   void trace_row(int row, const MayWiden& may_widen) {
-    for (int column = first_.column; column <= last_.column; ++column) {
-      add({std::uint16_t(column), std::uint16_t(row)}, may_widen);
-    }
+    cover_->for_each_in_row(
+        row, first_.column, last_.column,
+        [&](PixelTile tile, std::uint16_t pixels) { add(tile, pixels, may_widen); });
     trace_batch();
   }
   template <class MayWiden>
   void trace_column(int column, const MayWiden& may_widen) {
     for (int row = bounds_.top / kSide; row <= bounds_.bottom / kSide; ++row) {
-      add({std::uint16_t(column), std::uint16_t(row)}, may_widen);
+      const PixelTile tile{std::uint16_t(column), std::uint16_t(row)};
+      if (const std::uint16_t pixels = cover_->possible(tile); pixels != 0) {
+        add(tile, pixels, may_widen);
+      }
     }
     trace_batch();
   }
   template <class MayWiden>
-  void add(PixelTile tile, const MayWiden& may_widen) {
-    if (traced(tile) != 0) return;
-    const std::uint16_t pixels = cover_->possible(tile);
-    if (pixels == 0 || !may_widen(bounds_of(tile, pixels))) return;
+  void add(PixelTile tile, std::uint16_t pixels, const MayWiden& may_widen) {
+    if (traced(tile) != 0 || !may_widen(bounds_of(tile, pixels))) return;
     open_tile(tile);
     if (batch_size_ == kBatchTiles) trace_batch();
   }
@@ -148,6 +149,7 @@ class BorderScan {
   }
 
   void trace_batch() {
+    if (batch_size_ == 0) return;
     const std::span<const PixelTile> tiles(batch_.data(), batch_size_);
     scene_.surfaces().first_hits(view_, tiles, std::span(hits_.data(), batch_size_));
     for (std::size_t i = 0; i < batch_size_; ++i) {

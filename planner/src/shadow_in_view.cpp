@@ -18,17 +18,23 @@ bool in_shadow(const StateGrid& grid, const Eigen::Vector3d& point, double margi
   return false;
 }
 
-template <class Keep>
-void add_polygons(FaceProjector& projector, const Keep& keep, std::vector<FacePolygon>& polygons) {
-  for (const FaceProjector::GroupInView& group : projector.groups()) {
-    projector.for_each_face(group, [&](const FlatFaces::Face& face) {
-      FacePolygon& polygon = polygons.emplace_back();
-      if (!projector.project(face, polygon) || !keep(polygon)) polygons.pop_back();
-    });
+}  // namespace
+
+ShadowFaces::ShadowFaces(const PlanningScene& scene)
+    : shadow(rectangles_of(scene.shadow_faces())), occluders(largest_faces_of(scene.occluders())) {
+  behind_m_.reserve(occluders.list.size() * shadow.groups.size());
+  const BoxLanes& boxes = shadow.boxes;
+  for (const FlatFaces::Face& face : occluders.list) {
+    const Eigen::Vector3d n = face.normal, reach = n.cwiseAbs();
+    for (std::size_t i = 0; i < shadow.groups.size(); ++i) {
+      const double middle_m =
+          n.dot(Eigen::Vector3d(boxes.centre_x[i], boxes.centre_y[i], boxes.centre_z[i]));
+      const double half_m =
+          reach.dot(Eigen::Vector3d(boxes.half_x[i], boxes.half_y[i], boxes.half_z[i]));
+      behind_m_.push_back(float(face.offset_m - middle_m - half_m));
+    }
   }
 }
-
-}  // namespace
 
 bool too_uncertain(const FaceProjector& projector, const PinholeCamera& view) {
   return !(projector.margin_m() < 0.1 * view.range().near_m);
@@ -58,41 +64,67 @@ FaceProjector project_shadow(const PinholeCamera& view, const ShadowFaces& all,
 }
 
 ShadowInView::ShadowInView(const PinholeCamera& view, const ShadowFaces& all,
-                           const StateGrid& grid) {
+                           FaceProjector& shadow) {
   if (all.shadow.list.empty()) return;
-  add_shadow(view, all, grid);
+  add_shadow(view, shadow);
   shadow_count = polygons.size();
   if (shadow_count == 0) return;
-  add_occluders(view, all.occluders);
+  add_occluders(view, all);
   sort();
 }
 
-void ShadowInView::add_shadow(const PinholeCamera& view, const ShadowFaces& all,
-                              const StateGrid& grid) {
-  FaceProjector projector = project_shadow(view, all, grid);
-  if (too_uncertain(projector, view)) {
+void ShadowInView::add_shadow(const PinholeCamera& view, FaceProjector& shadow) {
+  if (too_uncertain(shadow, view)) {
     farthest_m = view.range().far_m;
     polygons.push_back(whole_image(view));
   } else {
-    farthest_m = projector.farthest_m();
-    add_polygons(
-        projector, [](const FacePolygon&) { return true; }, polygons);
+    farthest_m = shadow.farthest_m();
+    margin_m_ = shadow.margin_m();
+    for (const FaceProjector::GroupInView& group : shadow.groups()) {
+      GroupDepth depth{group.index, 1e300, -1};
+      shadow.for_each_face(group, [&](const FlatFaces::Face& face) {
+        FacePolygon& polygon = polygons.emplace_back();
+        if (!shadow.project(face, polygon)) return polygons.pop_back();
+        depth.nearest_m = std::min(depth.nearest_m, polygon.nearest_m);
+        depth.last_m = std::max(depth.last_m, polygon.nearest_m);
+      });
+      if (depth.last_m >= 0) groups_.push_back(depth);
+    }
   }
   for (const FacePolygon& face : polygons) widen(columns, face.columns), widen(rows, face.rows);
 }
 
-void ShadowInView::add_occluders(const PinholeCamera& view, const FlatFaces& occluders) {
-  if (occluders.list.empty()) return;
-  FaceProjector projector(view, occluders, {columns, rows, farthest_m});
+void ShadowInView::add_occluders(const PinholeCamera& view, const ShadowFaces& all) {
+  if (all.occluders.list.empty() || groups_.empty()) return;
+  FaceProjector projector(view, all.occluders, {columns, rows, farthest_m});
   if (too_uncertain(projector, view)) return;
+  margin_m_ = std::max(margin_m_, projector.margin_m());
   double last_m = 0;
-  for (const FacePolygon& face : polygons) last_m = std::max(last_m, face.nearest_m);
-  add_polygons(
-      projector,
-      [&](const FacePolygon& polygon) {
-        return polygon.certain_rows.last >= 0 && polygon.farthest_m < last_m;
-      },
-      polygons);
+  for (const GroupDepth& group : groups_) last_m = std::max(last_m, group.last_m);
+  for (const FaceProjector::GroupInView& group : projector.groups()) {
+    projector.for_each_face(group, [&](const FlatFaces::Face& face) {
+      FacePolygon& polygon = polygons.emplace_back();
+      polygon.origin = std::uint32_t(&face - all.occluders.list.data());
+      if (!projector.project(face, polygon) || polygon.certain_rows.last < 0) {
+        return polygons.pop_back();
+      }
+      const double from_m = hidden_from_m(polygon, all);
+      from_m < last_m ? hidden_from_.push_back(from_m) : polygons.pop_back();
+    });
+  }
+}
+
+/// The depth from which on all polygons of the shadow are behind an occluder for certain: farther
+/// away, or beyond its plane. (The camera is on the plane's other side, or else nothing would be
+/// certain of it.)
+double ShadowInView::hidden_from_m(const FacePolygon& occluder, const ShadowFaces& all) const {
+  double from_m = -1;
+  for (const GroupDepth& group : groups_) {
+    if (group.nearest_m > occluder.farthest_m) continue;
+    if (double(all.behind_m(occluder.origin, group.group)) > 4 * margin_m_) continue;
+    from_m = std::max(from_m, std::min(group.last_m, occluder.farthest_m));
+  }
+  return from_m;
 }
 
 void ShadowInView::sort() {
@@ -106,10 +138,10 @@ void ShadowInView::sort() {
   const auto step = [&](double depth_m) {
     return int(std::floor(std::clamp((depth_m - nearest) * per_m, -1.0, double(kSteps))));
   };
-  // An occluder goes to the step behind its farthest point, in front of the faces there.
+  // An occluder goes behind all faces of the step where it begins to hide.
   const auto place = [&](std::size_t i) {
-    const FacePolygon& p = polygons[i];
-    return i < shadow_count ? 2 * step(p.nearest_m) + 3 : 2 * step(p.farthest_m) + 4;
+    return i < shadow_count ? 2 * step(polygons[i].nearest_m) + 3
+                            : 2 * step(hidden_from_[i - shadow_count]) + 4;
   };
   std::vector<std::uint32_t> begin(2 * kSteps + 6);
   for (std::size_t i = 0; i < polygons.size(); ++i) ++begin[std::size_t(place(i)) + 1];

@@ -14,9 +14,16 @@ namespace vantage::detail {
 struct ShadowFaces {
   FlatFaces shadow, occluders;
 
-  explicit ShadowFaces(const PlanningScene& scene)
-      : shadow(rectangles_of(scene.shadow_faces())),
-        occluders(largest_faces_of(scene.occluders())) {}
+  explicit ShadowFaces(const PlanningScene& scene);
+
+  /// How far a group of the shadow's faces is behind the plane of an occluder, as one looks at it
+  /// from outside; negative if a part of it is in front. Metres.
+  float behind_m(std::uint32_t occluder, std::uint32_t group) const {
+    return behind_m_[occluder * shadow.groups.size() + group];
+  }
+
+ private:
+  std::vector<float> behind_m_;
 };
 
 /// Rays are too uncertain for anything to be drawn: faces may be anywhere on the image.
@@ -41,17 +48,28 @@ struct ShadowInView {
   PixelSpan columns{0, -1}, rows{0, -1};  ///< all polygons lie in there
   double farthest_m = 0;                  ///< no shadow is farther, not even at its back
 
-  /// About from front to back: an occluder comes before those faces of the shadow that are behind
-  /// it for certain, and after all others.
+  /// About from front to back: an occluder comes after all faces of the shadow but those that are
+  /// behind it for certain.
   std::vector<std::uint32_t> order;
 
-  /// @param grid that the faces were made from.
-  ShadowInView(const PinholeCamera& view, const ShadowFaces& all, const StateGrid& grid);
+  /// @param shadow as `project_shadow` gives it for this view and these faces.
+  ShadowInView(const PinholeCamera& view, const ShadowFaces& all, FaceProjector& shadow);
 
  private:
-  void add_shadow(const PinholeCamera& view, const ShadowFaces& all, const StateGrid& grid);
-  void add_occluders(const PinholeCamera& view, const FlatFaces& occluders);
+  /// Of the polygons of one group of the shadow's faces.
+  struct GroupDepth {
+    std::uint32_t group;
+    double nearest_m, last_m;  ///< the smallest and the largest `nearest_m`
+  };
+
+  void add_shadow(const PinholeCamera& view, FaceProjector& shadow);
+  void add_occluders(const PinholeCamera& view, const ShadowFaces& all);
+  double hidden_from_m(const FacePolygon& occluder, const ShadowFaces& all) const;
   void sort();
+
+  std::vector<GroupDepth> groups_;
+  double margin_m_ = 0;              ///< how far rounding may move a ray
+  std::vector<double> hidden_from_;  ///< of each occluder, as of `hidden_from_m`
 };
 
 }  // namespace vantage::detail

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <limits>
 
 #include "depth_weight.hpp"
 #include "shadow_border.hpp"
@@ -36,6 +37,28 @@ std::vector<BoundedBlock> bounded_blocks(const ViewCover& cover) {
   return blocks;
 }
 
+constexpr Score kNoBound = std::numeric_limits<Score>::max();
+constexpr double kRounding = 1 + 1e-4;  // of weights, which are computed in float
+
+/// How many pixels of the image may show a face of the groups, at most: counted in squares, 64 to
+/// the longer side of the image.
+double pixels_of(const std::vector<detail::FaceProjector::GroupInView>& groups,
+                 const Intrinsics& image) {
+  constexpr int kSquares = 64;
+  const int side = (std::max(image.width, image.height) + kSquares - 1) / kSquares;
+  std::array<std::uint64_t, kSquares> rows{};
+  for (const auto& group : groups) {
+    const int first = group.columns.first / side, last = group.columns.last / side;
+    const std::uint64_t squares = ~std::uint64_t(0) >> (kSquares - 1 - (last - first)) << first;
+    for (int row = group.rows.first / side; row <= group.rows.last / side; ++row) {
+      rows[std::size_t(row)] |= squares;
+    }
+  }
+  int count = 0;
+  for (const std::uint64_t row : rows) count += std::popcount(row);
+  return double(count) * side * side;
+}
+
 Score sum_of(const std::vector<BoundedBlock>& blocks) {
   Score sum = 0;
   for (const BoundedBlock& block : blocks) sum += block.bound;
@@ -59,9 +82,22 @@ struct ShadowScorer::Impl {
                                 weight.range().far_m));
   }
 
+  /// As if all that the groups' rectangles may show were as far away as any shadow.
+  Score rough_bound(const PinholeCamera& view, const detail::FaceProjector& shadow) const {
+    if (detail::too_uncertain(shadow, view) || shadow.may_be_grazing()) return kNoBound;
+    const double pixels = pixels_of(shadow.groups(), view.intrinsics());
+    return Score(pixels * (double(weight.bound(shadow.farthest_m()).uncertain) * kRounding + 1));
+  }
+
   /// What the view may show of the shadow; nothing if it certainly shows none.
   std::optional<ViewCover> bounded_cover(const PinholeCamera& view) const {
-    const ShadowInView shadow(view, faces, scene.grid());
+    detail::FaceProjector projector = detail::project_shadow(view, faces, scene.grid());
+    return bounded_cover(view, projector);
+  }
+
+  std::optional<ViewCover> bounded_cover(const PinholeCamera& view,
+                                         detail::FaceProjector& projector) const {
+    const ShadowInView shadow(view, faces, projector);
     if (shadow.shadow_count == 0) return std::nullopt;
     const detail::WeightBound bound = weight.bound(shadow.farthest_m);
     ViewCover cover(shadow.columns, shadow.rows);
@@ -109,8 +145,17 @@ double ShadowScorer::unit() const noexcept {
 }
 
 Score ShadowScorer::upper_bound(const PinholeCamera& view) const {
+  return upper_bound_if_needed(view, 0);
+}
+
+Score ShadowScorer::upper_bound_if_needed(const PinholeCamera& view, Score needed) const {
   impl_->check(view);
-  const std::optional<ViewCover> cover = impl_->bounded_cover(view);
+  detail::FaceProjector shadow = detail::project_shadow(view, impl_->faces, impl_->scene.grid());
+  if (needed > 0) {
+    const Score rough = impl_->rough_bound(view, shadow);
+    if (rough < needed) return rough;
+  }
+  const std::optional<ViewCover> cover = impl_->bounded_cover(view, shadow);
   return cover ? sum_of(bounded_blocks(*cover)) : 0;
 }
 

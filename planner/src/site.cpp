@@ -40,7 +40,7 @@ std::size_t finished(std::span<const ScoredCandidate> candidates) {
       }));
 }
 
-void Site::prepare(const StopToken& stop) {
+void Site::prepare(const Ranking& ranking, const StopToken& stop) {
   outcomes_.resize(range_.last - range_.first);
   std::optional<OutermostShadow> outermost;
   for (std::size_t c = 0; c < outcomes_.size() && !stop.stop_requested(); ++c) {
@@ -48,13 +48,17 @@ void Site::prepare(const StopToken& stop) {
     outcomes_[c].rejected = tools_->checker->check(pose);
     outcomes_[c].ready = true;
     if (outcomes_[c].rejected != Rejection::none) continue;
+    const Score needed = ranking.needed(candidates_[range_.first + c].id);
     int iteration = 0;
     for (const ServoStep& step : tools_->path(pose, outermost)) {
       const PinholeCamera view = tools_->camera.moved_to(step.T_world_cam);
-      const ScoreBound bound =
-          step.score ? ScoreBound{ScoreBound::Known::exact, *step.score}
-                     : ScoreBound{ScoreBound::Known::at_most, tools_->scorer->upper_bound(view)};
-      steps_.push_back({c, iteration++, view, tools_->utility.share(view.centre()), bound});
+      const std::uint64_t share = tools_->utility.share(view.centre());
+      const auto bound = [&] {
+        return tools_->scorer->upper_bound_if_needed(view, Utility::needed(needed, share));
+      };
+      steps_.push_back({c, iteration++, view, share,
+                        step.score ? ScoreBound{ScoreBound::Known::exact, *step.score}
+                                   : ScoreBound{ScoreBound::Known::at_most, bound()}});
       bound_ = std::max(bound_, steps_.back().utility());
     }
   }

@@ -45,7 +45,8 @@ class Site {
   Site(const SearchTools& tools, std::span<const ViewCandidate> candidates, SiteRange range)
       : tools_(&tools), candidates_(candidates), range_(range) {}
 
-  void prepare(const StopToken& stop);
+  /// @param ranking as of `score`: what certainly is not among the best is bounded less closely.
+  void prepare(const Ranking& ranking, const StopToken& stop);
 
   /// The best utility that any of its candidates may have.
   Score bound() const { return bound_; }

@@ -8,18 +8,15 @@
 namespace vantage::detail {
 namespace {
 
-constexpr int kPixels = PixelTile::kPixels, kSide = PixelTile::kSide;
-
 /// What the kernel needs of a view.
-struct Image {
+struct ViewLimits {
   int width, height;
   double near_m, far_m;
 };
 
-VANTAGE_MULTIVERSION
-Score volume_of(const Image& image, const MeshTiles& tiles) {
+[[gnu::always_inline]] inline Score volume_of_body(const ViewLimits& view, const MeshTiles& tiles) {
   constexpr double kIntegers = 0x1p52;  // where a double's last bit counts 1
-  const double per_far = 1 / image.far_m;
+  const double per_far = 1 / view.far_m;
   Score sum = 0;
   for (std::size_t tile = 0; tile < tiles.tiles.size(); ++tile) {
     const PixelTile at = tiles.tiles[tile];
@@ -27,13 +24,14 @@ Score volume_of(const Image& image, const MeshTiles& tiles) {
     const TileHits& known = tiles.known[tile];
 // "GCC unroll 1" as in depth_weight.cpp: so that the loop becomes vectors.
 #pragma GCC unroll 1
-    for (int i = 0; i < kPixels; ++i) {
-      const int u = kSide * at.column + i % kSide, v = kSide * at.row + i / kSide;
+    for (int i = 0; i < PixelTile::kPixels; ++i) {
+      const int u = PixelTile::kSide * at.column + i % PixelTile::kSide,
+                v = PixelTile::kSide * at.row + i / PixelTile::kSide;
       const float its_end = unseen.end[i], object = known.t[i];
       const double met = double(unseen.t[i]), ends = double(object < its_end ? object : its_end);
-      const double begin = met < image.near_m ? image.near_m : met;
-      const double end = ends < image.far_m ? ends : image.far_m;
-      const bool counts = (u < image.width) & (v < image.height) & (begin < end);
+      const double begin = met < view.near_m ? view.near_m : met;
+      const double end = ends < view.far_m ? ends : view.far_m;
+      const bool counts = (u < view.width) & (v < view.height) & (begin < end);
       const double d = counts ? begin * per_far : 0, e = counts ? end * per_far : 0;
       const double weight = (1 - double(unseen.facing[i])) * (e * e * e - d * d * d);
       sum += std::bit_cast<Score>(weight * DepthWeight::kOne + kIntegers) -
@@ -42,6 +40,7 @@ Score volume_of(const Image& image, const MeshTiles& tiles) {
   }
   return sum;
 }
+constexpr Multiversion<volume_of_body> volume_of;
 
 }  // namespace
 

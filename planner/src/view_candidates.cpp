@@ -26,7 +26,7 @@ Error refusal(fmt::format_string<Args...> text, Args&&... args) {
   return bad_input("candidates", fmt::format(text, std::forward<Args>(args)...));
 }
 
-void check_length(double length_m, const char* what) {
+void check_positive_length(double length_m, const char* what) {
   if (std::isfinite(length_m) && length_m > 0) return;
   throw refusal("{} of {} m; expected a number above 0", what, length_m);
 }
@@ -106,8 +106,8 @@ std::vector<ViewCandidate> views_of(const BoxGrid& grid, const Box& work_area) {
 }
 
 std::vector<ViewCandidate> views_of(const AroundPath& around, const Box& work_area) {
-  check_length(around.step_m, "a step along the path");
-  check_length(around.radius_m, "a sphere around the path with a radius");
+  check_positive_length(around.step_m, "a step along the path");
+  check_positive_length(around.radius_m, "a sphere around the path with a radius");
   check_direction_count(around.count, "a sphere around the path");
   const std::vector<Pose> places = detail::poses_along(around.path, around.step_m, kMostViews);
   check_view_count(double(places.size()), 1 + around.count);
@@ -153,7 +153,8 @@ HalfSpheres written_out(HalfSpheres set, const Box& work_area) {
     throw refusal("{} counts of positions for {} half-spheres; expected one, or one for each",
                   set.counts.size(), set.radii_m.size());
   }
-  for (const double radius : set.radii_m) check_length(radius, "a half-sphere with a radius");
+  for (const double radius : set.radii_m)
+    check_positive_length(radius, "a half-sphere with a radius");
   return set;
 }
 

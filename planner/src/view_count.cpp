@@ -15,9 +15,9 @@ constexpr std::size_t kMostPackets = 256;
 constexpr std::size_t kFewestPackets = 4;
 
 /// Points that are in view and not hidden, of four packets at a time.
-VANTAGE_MULTIVERSION
-std::uint64_t count_seen(const std::uint16_t* in_view, const std::uint16_t* hidden,
-                         std::size_t size) {
+[[gnu::always_inline]] inline std::uint64_t count_seen_body(const std::uint16_t* in_view,
+                                                            const std::uint16_t* hidden,
+                                                            std::size_t size) {
   std::uint64_t seen = 0;
   std::size_t i = 0;
   for (; i + 4 <= size; i += 4) {
@@ -29,6 +29,7 @@ std::uint64_t count_seen(const std::uint16_t* in_view, const std::uint16_t* hidd
   for (; i < size; ++i) seen += std::uint64_t(std::popcount(unsigned(in_view[i] & ~hidden[i])));
   return seen;
 }
+constexpr Multiversion<count_seen_body> count_seen;
 
 /// Of a packet whose lanes are the lowest ones.
 Score points_in(std::uint16_t lanes) {
@@ -45,11 +46,11 @@ void fill_blocks(const PointPackets& set, std::size_t level, std::size_t box, In
 
 }  // namespace
 
-ViewCount::ViewCount(const PointPackets& set, const Scene& occluders,
-                     std::span<const PinholeCamera> views, std::span<const Score> needed)
+ViewCounter::ViewCounter(const PointPackets& set, const Scene& occluders,
+                         std::span<const PinholeCamera> views, std::span<const Score> needed)
     : set_(set), occluders_(occluders), views_(views), needed_(needed) {}
 
-void ViewCount::run(const StopToken& stop, std::span<ScoreBound> results) {
+void ViewCounter::run(const StopToken& stop, std::span<ScoreBound> results) {
   active_.reserve(views_.size()), found_.reserve(2 * kBlocksPerParent);
   for (std::size_t i = 0; i < views_.size(); ++i) admit(i, results[i]);
   while (!active_.empty() && done_ < set_.packets()) {
@@ -67,7 +68,7 @@ void ViewCount::run(const StopToken& stop, std::span<ScoreBound> results) {
 
 /// Takes a view in if its boxes do not say enough. Most do, often the first few that are out of
 /// view: what is noted of them is written out for those only that are taken in.
-void ViewCount::admit(std::size_t index, ScoreBound& result) {
+void ViewCounter::admit(std::size_t index, ScoreBound& result) {
   const ViewFrustum frustum(views_[index], set_.largest_coordinate);
   Score bound = set_.size;
   found_.clear();
@@ -88,7 +89,7 @@ void ViewCount::admit(std::size_t index, ScoreBound& result) {
   }
 }
 
-std::vector<InView> ViewCount::blocks_found() const {
+std::vector<InView> ViewCounter::blocks_found() const {
   const FoundBox& first = found_.front();
   if (first.in_view == InView::all && first.level + 1 == set_.levels.size()) return {};
   std::vector<InView> blocks(set_.blocks(), InView::none);
@@ -99,7 +100,7 @@ std::vector<InView> ViewCount::blocks_found() const {
 }
 
 /// No view can be out before as many packets as its bound has points to lose.
-std::size_t ViewCount::next_batch_size() const {
+std::size_t ViewCounter::next_batch_size() const {
   Score least = ~Score(0);
   for (const View& view : active_) least = std::min(least, view.bound - needed_[view.index]);
   const std::size_t wanted = std::size_t(std::min<Score>(least / kPacketWidth + 1, kMostPackets));
@@ -107,7 +108,7 @@ std::size_t ViewCount::next_batch_size() const {
   return std::min(std::max(wanted, worth_it), set_.packets() - done_);
 }
 
-void ViewCount::look_at(std::span<const std::uint32_t> packets) {
+void ViewCounter::look_at(std::span<const std::uint32_t> packets) {
   const std::size_t size = packets.size();
   lanes_.resize(size), hidden_.resize(size), wanted_.assign(size, 0);
   for (std::size_t i = 0; i < size; ++i) lanes_[i] = set_.lanes(packets[i]);
@@ -124,8 +125,8 @@ void ViewCount::look_at(std::span<const std::uint32_t> packets) {
 }
 
 /// @returns how many of the packets' points the view's bound had counted so far.
-Score ViewCount::find_in_view(const View& view, std::span<const std::uint32_t> packets,
-                              std::uint16_t* in_view) {
+Score ViewCounter::find_in_view(const View& view, std::span<const std::uint32_t> packets,
+                                std::uint16_t* in_view) {
   Score counted = 0;
   if (view.blocks.empty()) {
     std::copy(lanes_.begin(), lanes_.end(), in_view);
@@ -150,7 +151,7 @@ Score ViewCount::find_in_view(const View& view, std::span<const std::uint32_t> p
   return counted;
 }
 
-void ViewCount::drop_hopeless(std::span<ScoreBound> results) {
+void ViewCounter::drop_hopeless(std::span<ScoreBound> results) {
   std::erase_if(active_, [&](const View& view) {
     if (view.bound >= needed_[view.index]) return false;
     results[view.index] = {ScoreBound::Known::at_most, view.bound};

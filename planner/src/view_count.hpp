@@ -16,10 +16,10 @@ namespace vantage::detail {
 /// Counts what views from one place see of a set of points, packet by packet of it. Every packet is
 /// traced once for all views. What is known so far bounds each view's count from above: a view that
 /// has fallen below what is needed is out, and when all are out, no ray more is traced.
-class ViewCount {
+class ViewCounter {
  public:
-  ViewCount(const PointPackets& set, const Scene& occluders, std::span<const PinholeCamera> views,
-            std::span<const Score> needed);
+  ViewCounter(const PointPackets& set, const Scene& occluders, std::span<const PinholeCamera> views,
+              std::span<const Score> needed);
 
   void run(const StopToken& stop, std::span<ScoreBound> results);
 

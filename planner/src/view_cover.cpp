@@ -64,10 +64,11 @@ struct EndWeights {
   }
 }
 
-/// Adds to each row what its fresh pixels count at most. depth^power is convex along a row, so that
-/// it is below the straight line between a span's two ends, unless rounding puts the face's plane
-/// behind the camera there. On that line, all pixels of a span count their mean, some at most the
-/// larger end.
+/// Adds to each row what its fresh pixels count at most. Pixels that are possible and not certain
+/// are not fresh: they count already, as much as any face that is not grazing. depth^power is
+/// convex along a row, so that it is below the straight line between a span's two ends, unless
+/// rounding puts the face's plane behind the camera there. On that line, all pixels of a span count
+/// their mean, some at most the larger end.
 [[gnu::always_inline]] inline void draw_block(const Drawing& d, const RowSpans& outer,
                                               const RowSpans& inner, int first_row,
                                               int first_column, CoverBlock& block) {
@@ -85,10 +86,12 @@ struct EndWeights {
   }
   RowLanes<std::uint32_t> fresh, unsure;
   std::uint32_t any = 0;
+  const std::uint32_t counted_once = d.polygon.grazing ? 0 : 0xFFFFFFFFu;
   VANTAGE_EACH_ROW(i) {
     const std::uint32_t open = ~block.certain[i];
-    fresh.at[i] = must.at[i] & open;
-    unsure.at[i] = may.at[i] & ~must.at[i] & open;
+    const std::uint32_t new_here = open & ~(block.possible[i] & counted_once);
+    fresh.at[i] = must.at[i] & new_here;
+    unsure.at[i] = may.at[i] & ~must.at[i] & new_here;
     any |= may.at[i] & open;
   }
   if (any == 0) return;
@@ -124,9 +127,9 @@ struct Reach {
         last_group(p.rows.last / kRows) {}
 };
 
-VANTAGE_MULTIVERSION
-void draw_polygon(const FacePolygon& p, const WeightBound& w, int origin_chunk, int origin_group,
-                  int chunks, CoverBlock* blocks) {
+[[gnu::always_inline]] inline void draw_polygon_body(const FacePolygon& p, const WeightBound& w,
+                                                     int origin_chunk, int origin_group, int chunks,
+                                                     CoverBlock* blocks) {
   const Reach reach(p);
   const Drawing drawing(p, w);
   RowSpans outer, inner;
@@ -140,6 +143,7 @@ void draw_polygon(const FacePolygon& p, const WeightBound& w, int origin_chunk, 
     }
   }
 }
+constexpr Multiversion<draw_polygon_body> draw_polygon;
 
 /// Sets the bits of one mask of the blocks.
 template <float PolygonEdge::*kOffset, auto kMask>
@@ -162,19 +166,21 @@ template <float PolygonEdge::*kOffset, auto kMask>
   }
 }
 
-VANTAGE_MULTIVERSION
-void draw_outline(const FacePolygon& p, int origin_chunk, int origin_group, int chunks,
-                  CoverBlock* blocks) {
+[[gnu::always_inline]] inline void draw_outline_body(const FacePolygon& p, int origin_chunk,
+                                                     int origin_group, int chunks,
+                                                     CoverBlock* blocks) {
   draw_mask<&PolygonEdge::outer, &CoverBlock::possible>(p, p.rows, origin_chunk, origin_group,
                                                         chunks, blocks);
 }
+constexpr Multiversion<draw_outline_body> draw_outline;
 
-VANTAGE_MULTIVERSION
-void draw_inside(const FacePolygon& p, int origin_chunk, int origin_group, int chunks,
-                 CoverBlock* blocks) {
+[[gnu::always_inline]] inline void draw_inside_body(const FacePolygon& p, int origin_chunk,
+                                                    int origin_group, int chunks,
+                                                    CoverBlock* blocks) {
   draw_mask<&PolygonEdge::inner, &CoverBlock::certain>(p, p.certain_rows, origin_chunk,
                                                        origin_group, chunks, blocks);
 }
+constexpr Multiversion<draw_inside_body> draw_inside;
 
 }  // namespace
 
@@ -208,18 +214,6 @@ Score ViewCover::bound(std::size_t block) const {
   double sum = 0;
   for (const float row : blocks_[block].bound) sum += double(row);
   return sum > 0 ? Score(sum * kRounding) + kRows * kColumns : 0;
-}
-
-std::uint16_t ViewCover::possible(PixelTile tile) const {
-  constexpr int kSide = PixelTile::kSide;
-  const int chunk = tile.column * kSide / kColumns - first_chunk_,
-            group = tile.row * kSide / kRows - first_group_;
-  const std::uint32_t* rows =
-      blocks_[std::size_t(group * chunks_ + chunk)].possible + tile.row * kSide % kRows;
-  const int shift = tile.column * kSide % kColumns;
-  unsigned bits = 0;
-  for (int i = 0; i < kSide; ++i) bits |= (rows[i] >> shift & 0xFu) << (kSide * i);
-  return std::uint16_t(bits);
 }
 
 std::span<const PixelTile> ViewCover::tiles(std::size_t block,

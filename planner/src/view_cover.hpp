@@ -42,12 +42,43 @@ class ViewCover {
   Score bound(std::size_t block) const;
 
   /// One bit for each pixel of a tile among the columns and rows: whether it may show a face.
-  std::uint16_t possible(PixelTile tile) const;
+  std::uint16_t possible(PixelTile tile) const {
+    const std::uint32_t* rows = rows_of(tile);
+    const int shift = tile.column * PixelTile::kSide % CoverBlock::kColumns;
+    const auto row = [&](int i) { return (rows[i] >> shift & 0xFu) << (PixelTile::kSide * i); };
+    return std::uint16_t(row(0) | row(1) | row(2) | row(3));
+  }
+
+  /// Calls `visit(tile, pixels)` for those tiles of a row, from column `first` to `last`, that may
+  /// show a face; `pixels` as of `possible`.
+  template <class Visit>
+  void for_each_in_row(int row, int first, int last, const Visit& visit) const {
+    constexpr int kSide = PixelTile::kSide, kTiles = CoverBlock::kColumns / kSide;
+    for (int column = first; column <= last;) {
+      const int next = (column / kTiles + 1) * kTiles, end = next <= last ? next : last + 1;
+      const std::uint32_t* rows = rows_of({std::uint16_t(column), std::uint16_t(row)});
+      const bool any = (rows[0] | rows[1] | rows[2] | rows[3]) != 0;
+      for (; any && column < end; ++column) {
+        const PixelTile tile{std::uint16_t(column), std::uint16_t(row)};
+        if (const std::uint16_t pixels = possible(tile); pixels != 0) visit(tile, pixels);
+      }
+      column = end;
+    }
+  }
 
   /// The tiles of a block that may show a face: at most 32.
   std::span<const PixelTile> tiles(std::size_t block, std::span<PixelTile, 32> room) const;
 
  private:
+  /// The four rows of bits that a tile is in.
+  const std::uint32_t* rows_of(PixelTile tile) const {
+    constexpr int kSide = PixelTile::kSide;
+    const int chunk = tile.column * kSide / CoverBlock::kColumns - first_chunk_,
+              group = tile.row * kSide / CoverBlock::kRows - first_group_;
+    return blocks_[std::size_t(group * chunks_ + chunk)].possible +
+           tile.row * kSide % CoverBlock::kRows;
+  }
+
   int first_chunk_, chunks_, first_group_;
   std::vector<CoverBlock> blocks_;  ///< row by row
 };

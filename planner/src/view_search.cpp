@@ -40,7 +40,8 @@ struct ViewSearch::Impl {
   /// Scores the sites of one chunk, best promise first.
   void search(std::vector<Site>& sites, SearchResult& result, Ranking& ranking,
               const StopToken& stop) const {
-    tbb::parallel_for(std::size_t(0), sites.size(), [&](std::size_t i) { sites[i].prepare(stop); });
+    tbb::parallel_for(std::size_t(0), sites.size(),
+                      [&](std::size_t i) { sites[i].prepare(ranking, stop); });
     std::vector<Site*> order;
     for (Site& site : sites) order.push_back(&site);
     std::sort(order.begin(), order.end(), [](const Site* a, const Site* b) {

@@ -70,7 +70,7 @@ void VisiblePoints::count(std::span<const PinholeCamera> views, std::span<const 
                           std::span<ScoreBound> results, const StopToken& stop) const {
   check_views(views, needed.size(), results.size());
   if (views.empty()) return;
-  detail::ViewCount(impl_->set, *impl_->occluders, views, needed).run(stop, results);
+  detail::ViewCounter(impl_->set, *impl_->occluders, views, needed).run(stop, results);
 }
 
 std::vector<std::uint8_t> VisiblePoints::visible(const PinholeCamera& view) const {

@@ -1,5 +1,7 @@
 #include <doctest/doctest.h>
 
+#include "shared_views.hpp"
+#include "small_area.hpp"
 #include "support/expect_error.hpp"
 #include "vantage/planner/light_scorer.hpp"
 #include "vantage/planner/methods.hpp"
@@ -8,10 +10,8 @@
 namespace vantage {
 namespace {
 
-const Intrinsics kImage{64, 48, 70, 70, 31.5, 23.5};
-
 PinholeCamera view_from(const Eigen::Vector3d& eye) {
-  return {kImage, Pose::looking_at(eye, {0, 0, 0.1}), {0.1, 3}};
+  return {test::kSmallImage, Pose::looking_at(eye, {0, 0, 0.1}), {0.1, 3}};
 }
 
 KnownObject box(const Eigen::Vector3d& min, const Eigen::Vector3d& max) {
@@ -41,12 +41,10 @@ struct Lit {
   }
 };
 
-const Box kArea({-0.1, -0.1, 0}, {0.1, 0.1, 0.2});
-
 }  // namespace
 
 TEST_CASE("the light method sees the faces that no lamp lights, and of the others nothing") {
-  const Lit lit(lit_cube(), kArea);
+  const Lit lit(lit_cube(), test::kSmallArea);
   CHECK(lit.scorer.unit() == doctest::Approx(2e-6).epsilon(1e-9));
   CHECK(lit.area_m2({0.8, 0, 0.1}) == 0);
   const double face = 0.06 * 0.06;
@@ -67,7 +65,7 @@ TEST_CASE("surfaces count inside the work area alone, and as many samples as can
 
   WorldModel large = lit_cube();
   large.static_structures.push_back(box({-20, -20, -0.1}, {20, 20, 0}));
-  CHECK(Lit(large, kArea).scorer.unit() == doctest::Approx(2e-6).epsilon(1e-9));
+  CHECK(Lit(large, test::kSmallArea).scorer.unit() == doctest::Approx(2e-6).epsilon(1e-9));
   const Lit floor(large, Box({-0.4, -0.4, -0.05}, {0.4, 0.4, 0.35}));
   CHECK(floor.scorer.unit() == doctest::Approx((0.64 + 6 * face) / (1 << 17)).epsilon(1e-6));
 }
@@ -75,7 +73,7 @@ TEST_CASE("surfaces count inside the work area alone, and as many samples as can
 TEST_CASE("the light method's flaw: what nobody knows casts no shade") {
   WorldModel unknown = lit_cube();
   unknown.objects.clear();
-  const Lit dark(unknown, kArea);
+  const Lit dark(unknown, test::kSmallArea);
   CHECK(dark.area_m2({-0.8, 0, 0.1}) == 0);
   CHECK(dark.scorer.upper_bound(view_from({-0.8, 0, 0.1})) == 0);
 }
@@ -85,7 +83,7 @@ TEST_CASE("every method has a name by which it is made, and others are refused")
   Observer& camera = measured.cameras[0];
   camera.depth =
       std::make_shared<const DepthImage>(known_scene(measured)->render_depth(camera.camera));
-  const Lit lit(measured, kArea);
+  const Lit lit(measured, test::kSmallArea);
   for (const std::string& name : method_names()) {
     CHECK(make_view_scorer({name}, lit.scene, lit.world, {0.1, 3})->name() == name);
   }

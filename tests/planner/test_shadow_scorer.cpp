@@ -173,7 +173,7 @@ TEST_CASE("a bounded shadow score is below what was needed, and never below the 
 }
 
 TEST_CASE("the bound of a shadow score holds for views from anywhere") {
-  std::size_t tight = 0;
+  std::size_t tight = 0, rough = 0;
   for (std::uint32_t seed = 0; seed < test::scene_count(60); ++seed) {
     CAPTURE(seed);
     const PlanningScene scene = test::shadow_scene(seed);
@@ -185,10 +185,17 @@ TEST_CASE("the bound of a shadow score holds for views from anywhere") {
       const ShadowScorer scorer(scene, view.range(), kPowers[i % 4]);
       const Score bound = scorer.upper_bound(view), truth = score_of(scorer, view);
       CHECK(bound >= truth);
+      for (const Score needed : {Score(1), truth + 1, bound, bound + 1, 3 * bound + 1}) {
+        const Score found = scorer.upper_bound_if_needed(view, needed);
+        CHECK(found >= truth);
+        CHECK((found == bound || found < needed));
+        rough += found != bound;
+      }
       tight += truth > 0 && double(bound) < 1.1 * double(truth);
     }
   }
   CHECK(tight > test::enough(300));
+  CHECK(rough > test::enough(300));
 }
 
 TEST_CASE("what hides the shadow takes its part of the bound") {

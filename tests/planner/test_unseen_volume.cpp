@@ -20,16 +20,16 @@ namespace {
 using test::Random;
 
 constexpr Intrinsics kImage{320, 240, 300, 300, 159.5, 119.5};
-constexpr DepthRange kRange{0.05, 3};
-const Box kArea({-0.3, -0.2, 0}, {0.3, 0.2, 0.25});
+constexpr DepthRange kVolumeRange{0.05, 3};
+const Box kVolumeArea({-0.3, -0.2, 0}, {0.3, 0.2, 0.25});
 
-PinholeCamera view_at(const Eigen::Vector3d& eye, const Eigen::Vector3d& target,
-                      const Intrinsics& k = kImage) {
-  return {k, Pose::looking_at(eye, target), kRange};
+PinholeCamera volume_view_at(const Eigen::Vector3d& eye, const Eigen::Vector3d& target,
+                             const Intrinsics& k = kImage) {
+  return {k, Pose::looking_at(eye, target), kVolumeRange};
 }
 
 MeshScorer by_volume(const SeenWorld& world, int width = kImage.width) {
-  return {world, kRange, 6, width, MeshWeight::volume};
+  return {world, kVolumeRange, 6, width, MeshWeight::volume};
 }
 
 double volume_m3(const MeshScorer& scorer, const PinholeCamera& view) {
@@ -67,7 +67,7 @@ double plain_volume(const SeenWorld& world, const PinholeCamera& view) {
       known->first_hits(view, tile, object);
       const int lane = 4 * (v % 4) + u % 4;
       const PixelRay ray = view.pixel_ray(u, v);
-      double end = std::min(double(object[0].t[lane]), kRange.far_m);
+      double end = std::min(double(object[0].t[lane]), kVolumeRange.far_m);
       for (int axis = 0; axis < 3; ++axis) {
         const Box& area = world.work_area;
         const double wall = ray.direction[axis] > 0 ? area.max()[axis] : area.min()[axis];
@@ -76,7 +76,7 @@ double plain_volume(const SeenWorld& world, const PinholeCamera& view) {
       if (std::isfinite(unseen[0].t[lane])) {
         end = std::min(end, shell_end(shell.get(), ray, double(unseen[0].t[lane])));
       }
-      const double begin = std::max(double(unseen[0].t[lane]), kRange.near_m);
+      const double begin = std::max(double(unseen[0].t[lane]), kVolumeRange.near_m);
       if (begin >= end) continue;
       sum += (1 - double(unseen[0].facing[lane])) * (std::pow(end, 3) - std::pow(begin, 3));
     }
@@ -87,46 +87,47 @@ double plain_volume(const SeenWorld& world, const PinholeCamera& view) {
 }  // namespace
 
 TEST_CASE("where nothing was seen, a view of all of the work area has its volume, from anywhere") {
-  const SeenWorld world{kArea, {}, {}};
+  const SeenWorld world{kVolumeArea, {}, {}};
   const MeshScorer scorer = by_volume(world);
   for (const Eigen::Vector3d& eye : {Eigen::Vector3d(0, -1.2, 0.6), Eigen::Vector3d(1.7, 0.3, 0.2),
                                      Eigen::Vector3d(0, 0, 1.5)}) {
-    CHECK(std::abs(volume_m3(scorer, view_at(eye, kArea.centre())) / kArea.volume_m3() - 1) < 0.02);
+    const double found_m3 = volume_m3(scorer, volume_view_at(eye, kVolumeArea.centre()));
+    CHECK(std::abs(found_m3 / kVolumeArea.volume_m3() - 1) < 0.02);
   }
   // The thesis' weight likes one and the same box the better the farther away it is.
-  const MeshScorer d6(world, kRange, 6, kImage.width);
+  const MeshScorer d6(world, kVolumeRange, 6, kImage.width);
   CHECK(scorer.unit_name() == "m³ · pixels");
   CHECK(d6.unit_name() == "m^power · pixels");
   const auto d6_from = [&](double y) {
-    return d6.score(view_at({0, y, 0.5}, kArea.centre())).score;
+    return d6.score(volume_view_at({0, y, 0.5}, kVolumeArea.centre())).score;
   };
   CHECK(d6_from(-2) > 2 * d6_from(-1.1));
 }
 
 TEST_CASE("what a known object hides is no volume to reveal") {
-  SeenWorld world{kArea, {}, {}};
+  SeenWorld world{kVolumeArea, {}, {}};
   const PinholeCamera view =
-      view_at({0, -6, 0.125}, {0, 0, 0.125}, {320, 240, 1500, 1500, 159.5, 119.5});
+      volume_view_at({0, -6, 0.125}, {0, 0, 0.125}, {320, 240, 1500, 1500, 159.5, 119.5});
   const PinholeCamera far_view(view.intrinsics(), view.T_world_cam(), {0.05, 10});
   const auto volume = [&] {
     const MeshScorer scorer(world, {0.05, 10}, 6, kImage.width, MeshWeight::volume);
     return volume_m3(scorer, far_view);
   };
-  CHECK(std::abs(volume() / kArea.volume_m3() - 1) < 0.03);
+  CHECK(std::abs(volume() / kVolumeArea.volume_m3() - 1) < 0.03);
   // A wall through the middle leaves the half before it.
   world.known.static_structures.push_back(
       {"wall",
        std::make_shared<const TriangleMesh>(TriangleMesh::from_box(Box({-1, 0, -1}, {1, 0.05, 1}))),
        {}});
-  CHECK(std::abs(volume() / (0.5 * kArea.volume_m3()) - 1) < 0.06);
+  CHECK(std::abs(volume() / (0.5 * kVolumeArea.volume_m3()) - 1) < 0.06);
 }
 
 TEST_CASE("a camera inside what is unseen counts what is in its range") {
-  const SeenWorld world{kArea, {}, {}};
-  const PinholeCamera view = view_at({0, -0.19, 0.125}, {0, 0.19, 0.125});
+  const SeenWorld world{kVolumeArea, {}, {}};
+  const PinholeCamera view = volume_view_at({0, -0.19, 0.125}, {0, 0.19, 0.125});
   const double volume = volume_m3(by_volume(world), view);
-  CHECK(volume > 0.2 * kArea.volume_m3());
-  CHECK(volume < kArea.volume_m3());
+  CHECK(volume > 0.2 * kVolumeArea.volume_m3());
+  CHECK(volume < kVolumeArea.volume_m3());
   CHECK(std::abs(volume - plain_volume(world, view)) < 1e-6 * volume);
 }
 
@@ -141,7 +142,7 @@ TEST_CASE("on random workcells the volume is the sum over pixels, and bounds hol
       const Eigen::Vector3d eye(random.uniform(-0.5, 0.5), random.uniform(-0.5, 0.5),
                                 random.uniform(0.02, 0.6));
       const PinholeCamera view =
-          view_at(eye, {0, 0, random.uniform(0, 0.2)}, {64, 48, 60, 60, 31.5, 23.5});
+          volume_view_at(eye, {0, 0, random.uniform(0, 0.2)}, {64, 48, 60, 60, 31.5, 23.5});
       const double plain = plain_volume(world, view);
       CHECK(std::abs(volume_m3(scorer, view) - plain) < 1e-6 * plain + 1e-9);
       // Looked at with a need that it cannot meet, it is left at a bound below that.

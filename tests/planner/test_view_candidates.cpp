@@ -3,20 +3,19 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <limits>
 #include <map>
 #include <numbers>
 #include <set>
 
 #include "reference/random_scene.hpp"
 #include "support/expect_error.hpp"
+#include "support/non_finite.hpp"
 #include "vantage/planner/view_candidates.hpp"
 
 namespace vantage::test {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-constexpr double kDegree = kPi / 180;
+constexpr double kDegree = std::numbers::pi / 180;
 const Box kArea({-0.2, -0.5, 0}, {0.4, 0.1, 0.1});  // centre (0.1, -0.2, 0.05)
 const Eigen::Vector3d kCentre(0.1, -0.2, 0.05);
 
@@ -285,11 +284,10 @@ TEST_CASE("impossible candidates are refused with the value") {
   const auto refuses = [](const CandidateSet& set, std::string_view message) {
     expect_bad_input("candidates", message, [&] { view_candidates(set, kArea); });
   };
-  constexpr double kInfinite = std::numeric_limits<double>::infinity();
   expect_bad_input("candidates", "0 positions", [] { half_sphere_directions(0); });
   expect_bad_input("candidates", "0 half-spheres", [] { default_radii_m(kArea, 0); });
   refuses(HalfSpheres{{-0.5}}, "-0.5 m");
-  refuses(HalfSpheres{{kInfinite}}, "inf m");
+  refuses(HalfSpheres{{kInfinity}}, "inf m");
   refuses(HalfSpheres{{0.5}, {}}, "no count");
   refuses(HalfSpheres{{0.5}, {-3}}, "-3 positions");
   refuses(HalfSpheres{{0.5}, {1'000'001}}, "1000001 positions");

@@ -1,20 +1,18 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <set>
 
 #include "support/expect_error.hpp"
+#include "support/non_finite.hpp"
 #include "vantage/planner/view_constraints.hpp"
 #include "vantage/volume/classify.hpp"
 
 namespace vantage::test {
 namespace {
 
-constexpr double kInfinite = std::numeric_limits<double>::infinity();
-constexpr double kPi = std::numbers::pi;
-constexpr DepthRange kRange{0.05, 3};
+constexpr DepthRange kCellRange{0.05, 3};
 
 KnownObject box_object(const std::string& name, const Box& box) {
   return {name, std::make_shared<const TriangleMesh>(TriangleMesh::from_box(box)), {}};
@@ -40,7 +38,7 @@ struct Cell {
 
   Rejection check(const ViewConstraints& limits, const Eigen::Vector3d& eye,
                   const Eigen::Vector3d& target = {0, 0, 0.0501}) const {
-    const ViewChecker checker(limits, PlanningScene(world, grid, OccluderMode::mesh), kRange);
+    const ViewChecker checker(limits, PlanningScene(world, grid, OccluderMode::mesh), kCellRange);
     return checker.check(Pose::looking_at(eye, target));
   }
 };
@@ -92,16 +90,16 @@ TEST_CASE("a reach map's cells are numbered with k fastest") {
     }
   }
   CHECK_FALSE(map.contains({std::nan(""), 2.1, 0.1}));
-  CHECK_FALSE(map.contains({kInfinite, 2.1, 0.1}));
+  CHECK_FALSE(map.contains({kInfinity, 2.1, 0.1}));
 }
 
 TEST_CASE("a view looks along the cone") {
   const Cell cell;
-  ViewConstraints limits{.view_cone = ViewCone{{0, 0, -3}, 0.25 * kPi}};
+  ViewConstraints limits{.view_cone = ViewCone{{0, 0, -3}, 0.25 * std::numbers::pi}};
   CHECK(cell.check(limits, {0.3, 0, 0.5}) == Rejection::none);
   CHECK(cell.check(limits, {0.6, 0, 0.5}) == Rejection::outside_the_view_cone);
   CHECK(cell.check(limits, {0.45, 0, 0.5}, {0, 0, 0.05}) == Rejection::none);  // along its border
-  limits.view_cone->half_angle_rad = kPi;  // everywhere, even up
+  limits.view_cone->half_angle_rad = std::numbers::pi;  // everywhere, even up
   CHECK(cell.check(limits, {0.5, 0, 0.2}, {0.5, 0, 1}) == Rejection::none);
 }
 
@@ -201,13 +199,13 @@ TEST_CASE("limits that make no sense are refused with their values") {
   };
   refuses({.reach = Reach{{0, 0, 0}, 0.9, 0.5}}, "reach", "from 0.9 to 0.5");
   refuses({.reach = Reach{{0, 0, 0}, -1, 0.5}}, "reach", "from -1");
-  refuses({.reach = Reach{{0, kInfinite, 0}, 0, 0.5}}, "reach", "[0, inf, 0]");
+  refuses({.reach = Reach{{0, kInfinity, 0}, 0, 0.5}}, "reach", "[0, inf, 0]");
   refuses({.view_cone = ViewCone{{0, 0, 0}, 1}}, "view cone", "[0, 0, 0]");
-  refuses({.view_cone = ViewCone{{0, 0, kInfinite}, 1}}, "view cone", "[0, 0, inf]");
+  refuses({.view_cone = ViewCone{{0, 0, kInfinity}, 1}}, "view cone", "[0, 0, inf]");
   refuses({.view_cone = ViewCone{{0, 0, 1}, 0}}, "view cone", "0 rad");
   refuses({.view_cone = ViewCone{{0, 0, 1}, 3.2}}, "view cone", "3.2 rad");
   refuses({.clearance_m = -0.1}, "clearance", "-0.1 m");
-  refuses({.clearance_m = kInfinite}, "clearance", "inf m");
+  refuses({.clearance_m = kInfinity}, "clearance", "inf m");
   refuses({.body = SphereBody{std::nan("")}}, "radius of the camera's body", "nan m");
   ReachMap map = two_cells();
   map.size = {2, 1, 2};

@@ -6,6 +6,7 @@
 #include "fake_scorer.hpp"
 #include "reference/plain_polish.hpp"
 #include "shadow_views.hpp"
+#include "small_area.hpp"
 #include "support/expect_error.hpp"
 #include "support/scene_count.hpp"
 #include "vantage/planner/methods.hpp"
@@ -51,8 +52,7 @@ class HillScorer final : public ViewScorer {
 };
 
 std::shared_ptr<const ViewChecker> free_space(const ViewConstraints& constraints = {}) {
-  const Box area({-0.1, -0.1, 0}, {0.1, 0.1, 0.2});
-  const PlanningScene empty({}, classify({}, GridGeometry::covering(area, 0.05)),
+  const PlanningScene empty({}, classify({}, GridGeometry::covering(test::kSmallArea, 0.05)),
                             OccluderMode::mesh);
   return std::make_shared<const ViewChecker>(constraints, empty, kCamera.range());
 }

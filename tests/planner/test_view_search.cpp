@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "fake_scorer.hpp"
+#include "small_area.hpp"
 #include "support/expect_error.hpp"
 #include "vantage/planner/plan.hpp"
 #include "vantage/volume/classify.hpp"
@@ -13,15 +14,15 @@
 namespace vantage {
 namespace {
 
-const Box kArea({-0.1, -0.1, 0}, {0.1, 0.1, 0.2});
-const PinholeCamera kCamera({64, 48, 60, 60, 31.5, 23.5}, Pose(), {0.05, 3});
+const PinholeCamera kSmallCamera({64, 48, 60, 60, 31.5, 23.5}, Pose(), {0.05, 3});
 
 /// Nothing stands there, and half of the work area is in shadow.
 PlanningScene half_seen_scene() {
   WorldModel world;
   world.cameras.push_back(
-      {"side", kCamera.moved_to(Pose::looking_at({0, -0.5, 0.3}, {0.12, 0, 0.1})), nullptr});
-  return {world, classify(world, GridGeometry::covering(kArea, 0.02)), OccluderMode::mesh};
+      {"side", kSmallCamera.moved_to(Pose::looking_at({0, -0.5, 0.3}, {0.12, 0, 0.1})), nullptr});
+  return {world, classify(world, GridGeometry::covering(test::kSmallArea, 0.02)),
+          OccluderMode::mesh};
 }
 
 /// Sees shadow somewhere, as the pose's hash has it; sometimes none.
@@ -49,7 +50,7 @@ struct SearchSetting {
   std::shared_ptr<const ServoRefiner> servo;
   SearchOptions options;
 
-  ViewSearch search() const { return {scorer, checker, servo, kCamera, options}; }
+  ViewSearch search() const { return {scorer, checker, servo, kSmallCamera, options}; }
 };
 
 SearchSetting setting(std::uint64_t seed, Score most, Score slack, int servo_iterations) {
@@ -57,12 +58,12 @@ SearchSetting setting(std::uint64_t seed, Score most, Score slack, int servo_ite
   ViewConstraints constraints;
   constraints.reach = Reach{{0.3, 0, 0.2}, 0, 0.75};  // rejects some
   SearchSetting s{std::make_shared<test::FakeScorer>(seed, most, slack),
-                  std::make_shared<const ViewChecker>(constraints, scene, kCamera.range()),
+                  std::make_shared<const ViewChecker>(constraints, scene, kSmallCamera.range()),
                   nullptr,
                   {}};
   if (servo_iterations > 0) {
     s.servo = std::make_shared<const ServoRefiner>(std::make_shared<const FakeView>(), s.checker,
-                                                   kCamera, scene.middle_of_shadow(),
+                                                   kSmallCamera, scene.middle_of_shadow(),
                                                    ServoOptions{servo_iterations, 64});
   }
   return s;
@@ -71,7 +72,7 @@ SearchSetting setting(std::uint64_t seed, Score most, Score slack, int servo_ite
 std::vector<ViewCandidate> some_views() {
   HalfSpheres spheres{{0.4, 0.6}, {25, 40}, {}};
   spheres.fan.rings = 1;
-  return view_candidates(spheres, kArea);
+  return view_candidates(spheres, test::kSmallArea);
 }
 
 /// The obvious way: every step of every candidate, then sort.

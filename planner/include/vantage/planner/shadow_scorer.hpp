@@ -27,6 +27,7 @@ class VANTAGE_API ShadowScorer final : public ViewScorer, public ShadowView {
   double unit() const noexcept override;
   std::string_view unit_name() const noexcept override { return "m^power · pixels"; }
   Score upper_bound(const PinholeCamera& view) const override;
+  Score upper_bound_if_needed(const PinholeCamera& view, Score needed) const override;
   void score(std::span<const PinholeCamera> views, std::span<const Score> needed,
              std::span<ScoreBound> results, const StopToken& stop = {}) const override;
   using ViewScorer::score;

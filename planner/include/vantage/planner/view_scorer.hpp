@@ -56,6 +56,12 @@ class VANTAGE_API ViewScorer {
   /// A certified upper bound of a view's score, many times cheaper than the score itself.
   virtual Score upper_bound(const PinholeCamera& view) const = 0;
 
+  /// The same, for a view that only matters from a score of `needed` on: if a rougher bound is
+  /// below that already, no better one is looked for.
+  virtual Score upper_bound_if_needed(const PinholeCamera& view, Score /*needed*/) const {
+    return upper_bound(view);
+  }
+
   /// Scores views that all have the same centre, to the bit, and the same intrinsics and range.
   ///
   /// @param needed for each view, the score from which on it matters. A view whose score is certain
