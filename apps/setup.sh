@@ -10,7 +10,7 @@
 set -euo pipefail
 
 packages=(
-  g++ cmake ninja-build
+  g++ cmake ninja-build ccache mold
   libembree-dev libtbb-dev libeigen3-dev
   libopencv-dev libopencv-contrib-dev
   libopenvdb-dev libboost-iostreams-dev libceres-dev
@@ -30,7 +30,7 @@ done
 if ! command -v apt-get >/dev/null; then
   cat >&2 <<'END'
 apps/setup.sh: there is no apt here, so please install these yourself, with their headers:
-  a C++20 compiler (GCC 12 or later), CMake 3.25, Ninja,
+  a C++20 compiler (GCC 12 or later), CMake 3.25, Ninja (and, to build faster, ccache and mold),
   Embree 3.13 or 4, oneTBB 2021, Eigen 3.4, OpenCV 4.6 with contrib, OpenVDB 10 and Boost.Iostreams,
   Ceres 2.1, assimp 5, Qhull 2020, nanoflann 1.4, libpng, OpenSSL 3, CLI11 2, nlohmann-json 3.11,
   yaml-cpp 0.7, valijson, spdlog, fmt 9, doctest 2.4.

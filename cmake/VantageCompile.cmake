@@ -13,10 +13,20 @@ endif()
 set(CMAKE_CXX_FLAGS_RELEASE "-O3 -DNDEBUG")
 set(CMAKE_CXX_FLAGS_DEBUG "-Og -g")
 
+# What was compiled before, in whichever checkout, is taken from the cache. Precompiled headers hold
+# no __TIME__ of ours; ccache wants to be told so.
 find_program(CCACHE ccache)
 if(CCACHE)
-  set(CMAKE_CXX_COMPILER_LAUNCHER "${CCACHE}")
+  set(CMAKE_CXX_COMPILER_LAUNCHER
+      ${CMAKE_COMMAND} -E env "CCACHE_BASEDIR=${CMAKE_SOURCE_DIR}" CCACHE_NOHASHDIR=1
+      CCACHE_SLOPPINESS=pch_defines,time_macros "${CCACHE}")
 endif()
+find_program(MOLD mold)
+if(MOLD)
+  add_link_options(-fuse-ld=mold)
+endif()
+# A library's change does not change what a program that uses it is linked from.
+set(CMAKE_LINK_DEPENDS_NO_SHARED ON)
 
 add_library(vantage_options INTERFACE)
 target_compile_options(vantage_options INTERFACE
@@ -26,11 +36,54 @@ target_compile_options(vantage_options INTERFACE
   $<$<BOOL:${VANTAGE_WERROR}>:-Werror>)
 if(VANTAGE_SANITIZE)
   target_compile_options(vantage_options INTERFACE
-    -fsanitize=${VANTAGE_SANITIZE} -fno-omit-frame-pointer)
+    -fsanitize=${VANTAGE_SANITIZE} -fno-omit-frame-pointer
+    -g1)  # reports show lines and nothing else
   target_link_options(vantage_options INTERFACE -fsanitize=${VANTAGE_SANITIZE})
-  # The run-time choice of a kernel runs before the sanitizers are ready.
-  target_compile_definitions(vantage_options INTERFACE VANTAGE_ONE_INSTRUCTION_SET)
 endif()
+
+# vantage_compile_together(TARGET [BATCH number] [HEADERS header... | LIKE other_target])
+#
+# Compiles several of a target's sources as one, with common headers precompiled: a median source
+# has fifty lines of its own and a hundred thousand of headers. LIKE takes the other target's
+# precompiled headers, which only works if both are compiled with the same flags, and this one with
+# all of the other's definitions. Without VANTAGE_UNITY every source stands alone and includes what
+# it needs: preset no-unity.
+function(vantage_compile_together target)
+  cmake_parse_arguments(arg "" "BATCH;LIKE" "HEADERS" ${ARGN})
+  if(NOT VANTAGE_UNITY)
+    return()
+  endif()
+  if(NOT arg_BATCH)
+    set(arg_BATCH 20)
+  endif()
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${arg_BATCH})
+  # Sources that are included by another file are no headers. And where much is inlined, GCC 12 sees
+  # things in std::string's operator+ that are not there (its bugs 105329 and 105651).
+  target_compile_options(${target} PRIVATE
+    -Wno-subobject-linkage -Wno-array-bounds -Wno-restrict -Wno-stringop-overflow)
+  if(arg_LIKE)
+    target_precompile_headers(${target} REUSE_FROM ${arg_LIKE})
+  elseif(arg_HEADERS)
+    target_precompile_headers(${target} PRIVATE ${arg_HEADERS})
+  endif()
+endfunction()
+
+# What most sources include.
+set(VANTAGE_COMMON_HEADERS
+    <Eigen/Core> <Eigen/Geometry> <fmt/format.h> <fmt/ranges.h> <tbb/parallel_for.h>
+    <algorithm> <array> <cmath> <cstdint> <filesystem> <functional> <limits> <map> <memory>
+    <numeric> <optional> <set> <span> <string> <string_view> <utility> <vector>)
+
+# The precompiled headers of all that is linked into shared libraries.
+function(vantage_precompile_common_headers)
+  set(source "${PROJECT_BINARY_DIR}/precompiled.cpp")
+  file(CONFIGURE OUTPUT "${source}" CONTENT "// Nothing but the headers that are precompiled.\n")
+  add_library(vantage_precompiled OBJECT "${source}")
+  set_target_properties(vantage_precompiled PROPERTIES POSITION_INDEPENDENT_CODE ON)
+  target_link_libraries(vantage_precompiled
+                        PRIVATE Eigen3::Eigen TBB::tbb fmt::fmt vantage_options)
+  target_precompile_headers(vantage_precompiled PRIVATE ${VANTAGE_COMMON_HEADERS})
+endfunction()
 
 # vantage_library(NAME SOURCES file... PUBLIC target... PRIVATE target...)
 #
@@ -43,7 +96,8 @@ function(vantage_library name)
   add_library(vantage::${name} ALIAS ${target})
   set_target_properties(${target} PROPERTIES
     EXPORT_NAME ${name} VERSION ${PROJECT_VERSION}
-    SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})  # before 1.0 minor versions differ
+    SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR}  # before 1.0 minor versions differ
+    DEFINE_SYMBOL "")  # one more macro would spoil precompiled headers that modules share
   target_compile_features(${target} PUBLIC cxx_std_20)
   target_include_directories(${target} PUBLIC
     $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/include>

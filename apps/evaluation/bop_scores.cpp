@@ -3,7 +3,6 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <limits>
 
 #include "evaluation/pose_errors.hpp"
 
@@ -12,7 +11,6 @@ namespace {
 
 constexpr double kLeastVisible = 0.1;  // BOP's visib_gt_min
 constexpr double kDelta = 0.015;       // metres; BOP's for its challenge
-constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
 /// Recalled targets of one image: over all thresholds, and misalignments.
 struct ImageScore {

@@ -2,15 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <limits>
-
 #include "evaluation/pose_errors.hpp"
 #include "vantage/raycore/error.hpp"
 
 namespace vantage {
 namespace {
-
-constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
 std::vector<double> scores_of(const Reconstruction& reconstruction) {
   std::vector<double> scores;

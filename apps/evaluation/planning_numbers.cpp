@@ -6,7 +6,6 @@ namespace vantage {
 namespace {
 
 constexpr double kCm3 = 1e6;
-constexpr const char* kNone = "–";
 
 }  // namespace
 

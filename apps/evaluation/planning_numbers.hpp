@@ -8,6 +8,8 @@ namespace vantage {
 
 // Figures as the report of an evaluation of planning prints them; what there is not is a dash.
 
+inline constexpr const char* kNone = "–";
+
 /// Of cubic metres: cubic centimetres, e.g. "943.1".
 std::string cm3_text(const std::optional<double>& m3);
 

@@ -10,8 +10,6 @@
 namespace vantage {
 namespace {
 
-constexpr const char* kNone = "–";
-
 /// What table 9.6 says of a method, in a scene or on average.
 struct ThesisQuality {
   double vox_quality = 0, full_s = 0, production_s = 0;

@@ -10,8 +10,6 @@
 namespace vantage {
 namespace {
 
-constexpr const char* kNone = "–";
-
 /// "full set, 34,225 views, servo 5, 2 polished"
 std::string set_title(const PlanningEvaluation& evaluation, const std::string& set) {
   for (const SceneEvaluation& scene : evaluation.scenes) {

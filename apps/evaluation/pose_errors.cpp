@@ -1,14 +1,11 @@
 #include "evaluation/pose_errors.hpp"
 
 #include <algorithm>
-#include <limits>
 
 #include "evaluation/nearest_vertex.hpp"
 
 namespace vantage {
 namespace {
-
-constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
 /// The largest distance, or anything above `bound` if it is larger than that.
 template <class Points>

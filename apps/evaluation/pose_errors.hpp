@@ -1,5 +1,7 @@
 #pragma once
 
+#include <limits>
+
 #include "evaluation/error_model.hpp"
 #include "vantage/raycore/camera.hpp"
 
@@ -9,6 +11,8 @@ namespace vantage {
 // al., "BOP: Benchmark for 6D Object Pose Estimation", ECCV 2018, and its challenge of 2019). Both
 // poses are T_ref_object in any one frame, unless a camera's is asked for. Metres, radians, pixels.
 // All are thread-safe.
+
+inline constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
 /// TE: the distance of the origins.
 double translation_error_m(const Pose& estimate, const Pose& truth);

@@ -7,8 +7,6 @@
 namespace vantage {
 namespace {
 
-constexpr const char* kNone = "–";
-
 std::string m3_text(double m3) {
   return fmt::format("{:.5f}", m3);
 }

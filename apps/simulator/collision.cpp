@@ -106,7 +106,7 @@ AlignedBox3d bounds_of(const std::vector<Vector3d>& points) {
   return bounds;
 }
 
-std::vector<EdgeEnds> edges_of(const TriangleMesh& mesh) {
+std::vector<EdgeEnds> edge_ends(const TriangleMesh& mesh) {
   std::vector<std::pair<std::uint32_t, std::uint32_t>> ends;
   for (const auto& [a, b, c] : mesh.triangles()) {
     ends.insert(ends.end(), {std::minmax(a, b), std::minmax(b, c), std::minmax(c, a)});
@@ -129,7 +129,7 @@ bool far_apart(double gap_m, const CollisionShape& a, const Pose& T_world_a,
 }  // namespace
 
 CollisionShape::CollisionShape(const TriangleMesh& mesh)
-    : points_(surface_points(mesh)), bounds_(bounds_of(points_)), edges_(edges_of(mesh)) {
+    : points_(surface_points(mesh)), bounds_(bounds_of(points_)), edges_(edge_ends(mesh)) {
   for (const auto& [a, b, c] : mesh.triangles()) {
     triangles_.push_back({mesh.vertices()[a].cast<double>(), mesh.vertices()[b].cast<double>(),
                           mesh.vertices()[c].cast<double>()});

@@ -21,11 +21,9 @@ template <class Copy>
   }
 }
 
-}  // namespace
-
-VANTAGE_MULTIVERSION
-void add_rays(RayBlock& block, std::uint32_t pixel, const PixelRays& rays,
-              const SampleTable& samples, std::size_t first, std::size_t last) {
+[[gnu::always_inline]] inline void add_rays_body(RayBlock& block, std::uint32_t pixel,
+                                                 const PixelRays& rays, const SampleTable& samples,
+                                                 std::size_t first, std::size_t last) {
   const float sx = rays.sight.x(), sy = rays.sight.y(), sz = rays.sight.z();
   const float ux = rays.per_u.x(), uy = rays.per_u.y(), uz = rays.per_u.z();
   const float vx = rays.per_v.x(), vy = rays.per_v.y(), vz = rays.per_v.z();
@@ -43,9 +41,10 @@ void add_rays(RayBlock& block, std::uint32_t pixel, const PixelRays& rays,
   }
   block.rays = i;
 }
+constexpr Multiversion<add_rays_body> add_rays_kernel;
 
-VANTAGE_MULTIVERSION
-void find_surfaces(RayBlock& block, const Eigen::Vector3f& camera_centre) {
+[[gnu::always_inline]] inline void find_surfaces_body(RayBlock& block,
+                                                      const Eigen::Vector3f& camera_centre) {
   std::size_t count = 0;
   for (std::size_t i = 0; i < block.rays; ++i) {
     block.ray[count] = std::uint32_t(i);
@@ -67,9 +66,9 @@ void find_surfaces(RayBlock& block, const Eigen::Vector3f& camera_centre) {
     block.from.z[s] = cz + t[i] * z + lift * nz;
   });
 }
+constexpr Multiversion<find_surfaces_body> find_surfaces_kernel;
 
-VANTAGE_MULTIVERSION
-void aim_at_sky(RayBlock& block, float reach_m) {
+[[gnu::always_inline]] inline void aim_at_sky_body(RayBlock& block, float reach_m) {
   for_each_surface(block, [&](std::size_t s, std::size_t i) {
     // Any two axes that make a frame with the normal, without a branch (Duff et al., "Building an
     // orthonormal basis, revisited", 2017).
@@ -84,9 +83,9 @@ void aim_at_sky(RayBlock& block, float reach_m) {
     block.to.z[s] = block.from.z[s] + reach_m * z;
   });
 }
+constexpr Multiversion<aim_at_sky_body> aim_at_sky_kernel;
 
-VANTAGE_MULTIVERSION
-void aim_at_lamp(RayBlock& block, const Lamp& lamp) {
+[[gnu::always_inline]] inline void aim_at_lamp_body(RayBlock& block, const Lamp& lamp) {
   const Eigen::Vector3f &c = lamp.centre(), &x = lamp.side_x(), &y = lamp.side_y();
   float above[kBlockRays];
   for_each_surface(block, [&](std::size_t s, std::size_t i) {
@@ -106,6 +105,26 @@ void aim_at_lamp(RayBlock& block, const Lamp& lamp) {
     count += (above[s] > 0) & (block.lamp_light[s] > 0);
   }
   block.lit = count;
+}
+constexpr Multiversion<aim_at_lamp_body> aim_at_lamp_kernel;
+
+}  // namespace
+
+void add_rays(RayBlock& block, std::uint32_t pixel, const PixelRays& rays,
+              const SampleTable& samples, std::size_t first, std::size_t last) {
+  add_rays_kernel(block, pixel, rays, samples, first, last);
+}
+
+void find_surfaces(RayBlock& block, const Eigen::Vector3f& camera_centre) {
+  find_surfaces_kernel(block, camera_centre);
+}
+
+void aim_at_sky(RayBlock& block, float reach_m) {
+  aim_at_sky_kernel(block, reach_m);
+}
+
+void aim_at_lamp(RayBlock& block, const Lamp& lamp) {
+  aim_at_lamp_kernel(block, lamp);
 }
 
 }  // namespace vantage

@@ -75,9 +75,8 @@ void roll(const std::vector<HullFace>& faces, const Eigen::Vector3d& mass_centre
 
 RestingPose rest_on(const HullFace& face, const std::vector<Eigen::Vector3d>& points) {
   RestingPose pose;
-  pose.rotation = Eigen::Quaterniond::FromTwoVectors(face.normal, -Eigen::Vector3d::UnitZ())
-                      .normalized()
-                      .toRotationMatrix();
+  pose.rotation =
+      rotation_between(face.normal, -Eigen::Vector3d::UnitZ()).normalized().toRotationMatrix();
   const Eigen::RowVector3d upwards = pose.rotation.row(2);
   double lowest = std::numeric_limits<double>::infinity();
   for (const Eigen::Vector3d& point : points) lowest = std::min(lowest, upwards.dot(point));

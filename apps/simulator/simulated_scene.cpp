@@ -11,7 +11,7 @@ namespace {
 // Smaller meshes are hit faster as triangles of the scene's own BVH.
 constexpr std::size_t kLeastShared = 500;
 
-void check(const SimulatedBody& body) {
+void check_shape(const SimulatedBody& body) {
   if (body.shape == nullptr) throw bad_input("body " + body.name, "it has no shape");
   const std::size_t triangles = body.shape->mesh.triangles().size();
   if (body.shape->textured() && body.shape->uv.size() != triangles) {
@@ -26,7 +26,7 @@ void check(const SimulatedBody& body) {
 SimulatedScene::SimulatedScene(std::vector<SimulatedBody> bodies) : bodies_(std::move(bodies)) {
   SceneBuilder builder;
   for (const SimulatedBody& body : bodies_) {
-    check(body);
+    check_shape(body);
     const TriangleMesh& mesh = body.shape->mesh;
     if (mesh.triangles().size() < kLeastShared) {
       builder.add_mesh(mesh.transformed(body.T_world_body));

@@ -7,7 +7,7 @@
 namespace vantage {
 namespace {
 
-void check(const SimulatedBody& body) {
+void check_look(const SimulatedBody& body) {
   const TexturedMesh& shape = *body.shape;
   const Eigen::Vector3f& c = shape.color;
   if (!((c.array() >= 0).all() && (c.array() <= 1).all())) {
@@ -38,7 +38,7 @@ void check(const SimulatedBody& body) {
 
 SurfaceColors::SurfaceColors(std::span<const SimulatedBody> bodies) {
   for (const SimulatedBody& body : bodies) {
-    check(body);
+    check_look(body);
     const Eigen::Vector3f linear = body.shape->color.unaryExpr(&srgb_to_linear);
     looks_.push_back({linear, body.shape->textured() ? body.shape.get() : nullptr});
   }

@@ -10,6 +10,7 @@
 
 #include "bop_ply.hpp"
 #include "object_looks.hpp"
+#include "units.hpp"
 #include "vantage/raycore/file.hpp"
 #include "vantage/raycore/image_io.hpp"
 
@@ -17,8 +18,6 @@ namespace vantage {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-constexpr double kMm = 1000;
 
 /// As exact as the model files are: whole nanometres. What is beyond is the corners' single
 /// precision.
@@ -30,7 +29,7 @@ double millimetres(double metres) {
 Json matrix_json(const Pose& motion) {
   Eigen::Matrix4d matrix = Eigen::Matrix4d::Identity();
   matrix.topLeftCorner<3, 3>() = motion.rotation();
-  matrix.topRightCorner<3, 1>() = kMm * motion.translation();
+  matrix.topRightCorner<3, 1>() = kMillimetres * motion.translation();
   Json numbers = Json::array();
   for (int i = 0; i < 16; ++i) numbers.push_back(matrix(i / 4, i % 4));
   return numbers;
@@ -48,8 +47,8 @@ void add_symmetries(const Symmetries& symmetries, Json& info) {
   if (!symmetries.continuous.empty()) {
     Json& list = info["symmetries_continuous"] = Json::array();
     for (const ContinuousSymmetry& symmetry : symmetries.continuous) {
-      list.push_back(
-          {{"axis", vector_json(symmetry.axis)}, {"offset", vector_json(kMm * symmetry.offset_m)}});
+      list.push_back({{"axis", vector_json(symmetry.axis)},
+                      {"offset", vector_json(kMillimetres * symmetry.offset_m)}});
     }
   }
 }

@@ -14,11 +14,11 @@ namespace vantage {
 namespace {
 
 namespace fs = std::filesystem;
-using nlohmann::json;
+using SortedJson = nlohmann::json;
 
 constexpr const char* kCopies = "cell";
 
-std::string yaml_text(const json& root) {
+std::string yaml_text(const SortedJson& root) {
   return "# Written by vantage simulate: the recorded cell.\n" + root.dump(1) + "\n";
 }
 
@@ -54,8 +54,8 @@ class Copies {
   }
 
   /// Copies the mesh file of a type or an object, if it has one, and makes it name the copy.
-  void copy_mesh_of(json& object, const fs::path& folder, const std::string& prefix) {
-    const auto replace = [&](json& path) {
+  void copy_mesh_of(SortedJson& object, const fs::path& folder, const std::string& prefix) {
+    const auto replace = [&](SortedJson& path) {
       path = prefix + copy(folder / path.get<std::string>());
     };
     if (object.contains("mesh")) replace(object["mesh"]);
@@ -66,8 +66,8 @@ class Copies {
 
  private:
   void copy_types(const fs::path& file, const std::string& name) {
-    json root = read_yaml(file).root;
-    for (json& type : root["object_types"]) copy_mesh_of(type, file.parent_path(), "");
+    SortedJson root = read_yaml(file).root;
+    for (SortedJson& type : root["object_types"]) copy_mesh_of(type, file.parent_path(), "");
     write(name, yaml_text(root));
   }
 
@@ -101,16 +101,17 @@ class Copies {
   std::set<std::string> taken_;
 };
 
-json object_json(const PlacedObject& object) {
+SortedJson object_json(const PlacedObject& object) {
   const Eigen::Quaterniond q = object.T_world_object.quaternion();
   const Eigen::Vector3d& t = object.T_world_object.translation();
-  const json rotation{{"w", q.w()}, {"x", q.x()}, {"y", q.y()}, {"z", q.z()}};
-  const json pose{{"translation_m", json::array({t.x(), t.y(), t.z()})}, {"rotation", rotation}};
+  const SortedJson rotation{{"w", q.w()}, {"x", q.x()}, {"y", q.y()}, {"z", q.z()}};
+  const SortedJson pose{{"translation_m", SortedJson::array({t.x(), t.y(), t.z()})},
+                        {"rotation", rotation}};
   return {{"name", object.name}, {"type", object.type->name}, {"pose", pose}};
 }
 
 /// Objects that were placed stand behind those of the file.
-void write_out_random_objects(const Workcell& workcell, json& root) {
+void write_out_random_objects(const Workcell& workcell, SortedJson& root) {
   root.erase("random_objects");
   const std::size_t in_file = root.contains("known_objects") ? root["known_objects"].size() : 0;
   for (std::size_t i = in_file; i < workcell.known_objects.size(); ++i) {
@@ -122,7 +123,7 @@ void write_out_random_objects(const Workcell& workcell, json& root) {
 
 void write_cell_bundle(const fs::path& file, const Workcell& workcell,
                        const std::vector<std::string>& calibrations, const fs::path& folder) {
-  json root = read_yaml(file).root;
+  SortedJson root = read_yaml(file).root;
   write_out_random_objects(workcell, root);
   if (root.contains("sensor")) root["sensor"].erase("calibration");  // of another recording
   if (!calibrations.empty()) root["sensor"]["calibration"] = calibrations;
@@ -130,9 +131,9 @@ void write_cell_bundle(const fs::path& file, const Workcell& workcell,
   const std::string prefix = std::string(kCopies) + "/";
   Copies copies(folder / kCopies);
   if (root.contains("knowledge_base")) {
-    json names = json::array();
-    const json& bases = root["knowledge_base"];
-    for (const json& base : bases.is_array() ? bases : json::array({bases})) {
+    SortedJson names = SortedJson::array();
+    const SortedJson& bases = root["knowledge_base"];
+    for (const SortedJson& base : bases.is_array() ? bases : SortedJson::array({bases})) {
       names.push_back(prefix + copies.copy_knowledge(from / base.get<std::string>()));
     }
     root["knowledge_base"] = names;
@@ -142,7 +143,7 @@ void write_cell_bundle(const fs::path& file, const Workcell& workcell,
   }
   for (const char* list : {"static_structures", "known_objects", "foreign_objects"}) {
     if (!root.contains(list)) continue;
-    for (json& object : root[list]) copies.copy_mesh_of(object, from, prefix);
+    for (SortedJson& object : root[list]) copies.copy_mesh_of(object, from, prefix);
   }
   write_file(folder / "workcell.yaml", yaml_text(root));
 }

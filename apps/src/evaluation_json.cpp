@@ -1,16 +1,14 @@
 #include <cmath>
-#include <numbers>
 
 #include "evaluation_report.hpp"
 #include "pose_json.hpp"
+#include "units.hpp"
 #include "version.hpp"
 
 namespace vantage {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-constexpr double kMillimetres = 1000, kDegrees = 180 / std::numbers::pi;
 
 Json scaled(const std::optional<double>& value, double scale = 1) {
   return value ? Json(*value * scale) : Json();

@@ -1,14 +1,11 @@
 #include <fmt/format.h>
 
-#include <numbers>
-
 #include "evaluation/error_plot.hpp"
 #include "evaluation_report.hpp"
+#include "units.hpp"
 
 namespace vantage {
 namespace {
-
-constexpr double kMillimetres = 1000, kDegrees = 180 / std::numbers::pi;
 
 using SpreadOf = std::optional<Spread> RunSummary::*;
 
@@ -17,7 +14,7 @@ std::string mean_and_deviation(const std::optional<Spread>& spread, double scale
   return fmt::format("{:.3g} ± {:.2g}", spread->mean * scale, spread->deviation * scale);
 }
 
-std::string mean_of(const std::vector<double>& values) {
+std::string mean_text(const std::vector<double>& values) {
   const std::optional<Spread> spread = spread_of(values);
   return spread ? fmt::format("{:.3g}", spread->mean) : "–";
 }
@@ -45,7 +42,7 @@ std::string bop_line(const MethodEvaluation& method) {
   }
   return fmt::format("{:<8} AR {} % (VSD {}, MSSD {}, MSPD {}), ADD {} mm, ADD-S {} mm\n",
                      method.name, percent(bop.average_recall()), percent(bop.ar_vsd),
-                     percent(bop.ar_mssd), percent(bop.ar_mspd), mean_of(add), mean_of(add_s));
+                     percent(bop.ar_mssd), percent(bop.ar_mspd), mean_text(add), mean_text(add_s));
 }
 
 /// As the thesis calls the methods.

@@ -9,6 +9,7 @@
 #include <set>
 
 #include "marker_dictionaries.hpp"
+#include "run_time.hpp"
 #include "vantage/raycore/error.hpp"
 #include "vantage/reconstruction/calibration.hpp"
 #include "vantage/reconstruction/color_image.hpp"
@@ -19,11 +20,6 @@ namespace vantage {
 namespace {
 
 namespace fs = std::filesystem;
-using Clock = StopToken::Clock;
-
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 const std::vector<fs::path>& calibrations_of(const Workcell& workcell,
                                              const ObserveOptions& options) {
@@ -158,12 +154,12 @@ ObservedScene observe(const BopScene& scene, const Workcell& workcell,
   for (std::size_t i = 0; i < count; ++i) {
     observed.views.push_back({std::to_string(scene.images[i].id), lenses[i]});
   }
-  auto start = Clock::now();
+  auto start = StopToken::Clock::now();
   if (options.detect_markers) detect(scene, workcell, observed, stop);
   observed.detect_s = seconds_since(start);
   add_from_files(scene, observed, options.observations);
 
-  start = Clock::now();
+  start = StopToken::Clock::now();
   std::set<FeatureKey> keys;
   for (const ObjectFeature& feature : board) keys.insert(feature.key);
   tbb::parallel_for(std::size_t(0), count, [&](std::size_t i) {

@@ -7,11 +7,11 @@
 namespace vantage {
 namespace {
 
-constexpr int kFont = cv::FONT_HERSHEY_SIMPLEX;
+constexpr int kOverlayFont = cv::FONT_HERSHEY_SIMPLEX;
 constexpr double kLetters = 0.5;
 constexpr int kShift = 4;  // OpenCV's fixed point: sixteenths of a pixel
-constexpr int kLine = 22, kMargin = 10, kAbove = 8;
-const cv::Scalar kPaper(250, 250, 249), kText(44, 48, 54);
+constexpr int kLineHeight = 22, kPageMargin = 10, kAbove = 8;
+const cv::Scalar kBackground(250, 250, 249), kText(44, 48, 54);
 
 cv::Scalar color(const Ink& ink) {
   return {double(ink.red), double(ink.green), double(ink.blue)};
@@ -63,7 +63,7 @@ void OverlayCanvas::cross(const Eigen::Vector2d& centre, double radius_px, const
 
 void OverlayCanvas::tag(const Eigen::Vector2d& at, const std::string& text, const Ink& ink) {
   int below = 0;
-  const cv::Size size = cv::getTextSize(text, kFont, kLetters, 1, &below);
+  const cv::Size size = cv::getTextSize(text, kOverlayFont, kLetters, 1, &below);
   const cv::Point anchor(int(scale_ * at.x()), int(scale_ * at.y()));
   const int height = size.height + below + 8;
   cv::Rect box(anchor.x - size.width / 2 - 5, anchor.y - height - kAbove, size.width + 10, height);
@@ -83,20 +83,21 @@ void OverlayCanvas::tag(const Eigen::Vector2d& at, const std::string& text, cons
   tags_.push_back(free);
   const cv::Point middle(free.x + free.width / 2, free.y + free.height / 2);
   cv::line(picture_, anchor, middle, color(ink), 1, cv::LINE_AA);
-  cv::rectangle(picture_, free, kPaper, cv::FILLED);
+  cv::rectangle(picture_, free, kBackground, cv::FILLED);
   cv::rectangle(picture_, free, color(ink), 1);
-  cv::putText(picture_, text, {free.x + 5, free.y + 5 + size.height}, kFont, kLetters, kText, 1,
-              cv::LINE_AA);
+  cv::putText(picture_, text, {free.x + 5, free.y + 5 + size.height}, kOverlayFont, kLetters, kText,
+              1, cv::LINE_AA);
 }
 
 ColorImage OverlayCanvas::finished(const std::vector<std::string>& explanations) const {
-  const int strip = 2 * kMargin + kLine * int(explanations.size());
+  const int strip = 2 * kPageMargin + kLineHeight * int(explanations.size());
   cv::Mat3b page(picture_.rows + strip, picture_.cols);
-  page.setTo(kPaper);
+  page.setTo(kBackground);
   picture_.copyTo(page.rowRange(0, picture_.rows));
   for (std::size_t i = 0; i < explanations.size(); ++i) {
-    const int y = picture_.rows + kMargin + kLine * int(i + 1) - 6;
-    cv::putText(page, explanations[i], {kMargin, y}, kFont, kLetters, kText, 1, cv::LINE_AA);
+    const int y = picture_.rows + kPageMargin + kLineHeight * int(i + 1) - 6;
+    cv::putText(page, explanations[i], {kPageMargin, y}, kOverlayFont, kLetters, kText, 1,
+                cv::LINE_AA);
   }
   ColorImage image(page.cols, page.rows);
   std::copy_n(page.ptr<std::uint8_t>(), image.samples.size(), image.samples.begin());

@@ -21,7 +21,7 @@ constexpr double kMagnified = 20;  // residuals
 constexpr double kAxis_m = 0.05;
 
 /// One photograph with what is known of it.
-struct Sheet {
+struct OverlaySheet {
   const CameraView& view;
   OverlayCanvas canvas;
 
@@ -67,8 +67,9 @@ struct Sheet {
 
 /// Draws what is seen of an object. @returns its highest point on the image, where its name goes:
 /// nothing if it is not seen.
-std::optional<Eigen::Vector2d> draw_object(Sheet& sheet, const KnownObject& object, const Ink& ink,
-                                           const std::vector<MeshEdge>& edges, const Scene& rays) {
+std::optional<Eigen::Vector2d> draw_object(OverlaySheet& sheet, const KnownObject& object,
+                                           const Ink& ink, const std::vector<MeshEdge>& edges,
+                                           const Scene& rays) {
   const Intrinsics& k = sheet.view.lens.intrinsics();
   std::optional<Eigen::Vector2d> top;
   for (const OutlinePiece& piece :
@@ -82,7 +83,7 @@ std::optional<Eigen::Vector2d> draw_object(Sheet& sheet, const KnownObject& obje
   return top;
 }
 
-void tag_object(Sheet& sheet, const KnownObject& object, const Eigen::Vector2d& top,
+void tag_object(OverlaySheet& sheet, const KnownObject& object, const Eigen::Vector2d& top,
                 const Ink& ink) {
   const bool sure = object.probability > 0.995;
   sheet.canvas.tag(
@@ -114,7 +115,7 @@ ColorImage OverlayPainter::paint(std::size_t image) const {
   const ObservedScene& observed = reconstruction_.observed;
   const CameraView& view = observed.views[image];
   const CameraLocation& location = observed.locations[image];
-  Sheet sheet{view, OverlayCanvas(read_color(scene_.images[image].color))};
+  OverlaySheet sheet{view, OverlayCanvas(read_color(scene_.images[image].color))};
 
   for (std::size_t i = 0; i < observed.board[image].size(); ++i) {
     const auto& wrong = location.outliers;

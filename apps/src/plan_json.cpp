@@ -1,10 +1,9 @@
 #include "plan_json.hpp"
 
-#include <cmath>
-
 #include "candidate_json.hpp"
 #include "inputs_json.hpp"
 #include "pose_json.hpp"
+#include "run_time.hpp"
 #include "version.hpp"
 #include "views_json.hpp"
 #include "volume_json.hpp"
@@ -14,10 +13,6 @@ namespace vantage {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-double milliseconds(double seconds) {
-  return std::round(seconds * 1e6) / 1e3;
-}
 
 }  // namespace
 

@@ -16,7 +16,7 @@ namespace vantage {
 namespace {
 
 const Eigen::Vector3f kFloor(0.90f, 0.90f, 0.91f);
-constexpr int kSamples = 64;
+constexpr int kSamplesPerPixel = 64;
 
 /// The mean of two pictures of one size, `share` of it from the first.
 ColorImage blended(const ColorImage& a, const ColorImage& b, double share) {
@@ -89,7 +89,7 @@ class Stage {
   std::optional<ColorImage> picture(const std::vector<Prop>& props, const PinholeCamera& camera,
                                     double share, const StopToken& stop) const {
     PictureOptions options;
-    options.samples_per_pixel = int(std::lround(kSamples * share));
+    options.samples_per_pixel = int(std::lround(kSamplesPerPixel * share));
     options.sky_reach_m = float(1.2 * scale_of(plan_));
     // From above, over the viewer's left shoulder: what is seen is lit, and shadows fall aside.
     const Eigen::Matrix3d& R = camera.T_world_cam().rotation();

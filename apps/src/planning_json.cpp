@@ -1,6 +1,7 @@
 #include "planning_json.hpp"
 
 #include "evaluation/planning_tables.hpp"
+#include "optional_json.hpp"
 #include "pose_json.hpp"
 #include "version.hpp"
 
@@ -8,10 +9,6 @@ namespace vantage {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-Json or_null(const std::optional<double>& value) {
-  return value ? Json(*value) : Json();
-}
 
 Json worth_json(const SceneEvaluation& scene, const PoseWorth& worth) {
   return {{"method_score", worth.method_score},

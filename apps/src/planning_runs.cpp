@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 
 #include "picture_file.hpp"
 #include "plan_pictures.hpp"
+#include "run_time.hpp"
 #include "simulator/ground_truth.hpp"
 #include "vantage/planner/planning_scene.hpp"
 #include "vantage/planner/shadow_scorer.hpp"
@@ -16,12 +16,6 @@
 
 namespace vantage {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 HalfSpheres set_named(const std::string& name, const Box& work_area,
                       const std::vector<double>& radii_m) {
@@ -70,7 +64,7 @@ class SceneRun {
   bool classify_cell(SceneEvaluation& scene) {
     const auto geometry = GridGeometry::covering(request_.work_area, request_.voxel_size_m);
     for (int i = 0; i < settings_.repeat; ++i) {
-      const auto start = Clock::now();
+      const auto start = StopToken::Clock::now();
       grid_ = classify(cell_.world, geometry, request_.volume, stop_);
       if (grid_ == nullptr) return false;
       scene.classify_s.push_back(seconds_since(start));

@@ -10,6 +10,7 @@
 #include "overlay_picture.hpp"
 #include "progress_line.hpp"
 #include "reconstruct_options.hpp"
+#include "run_time.hpp"
 #include "vantage/raycore/file.hpp"
 #include "vantage/raycore/image_io.hpp"
 #include "workers.hpp"
@@ -19,7 +20,6 @@ namespace vantage {
 namespace {
 
 namespace fs = std::filesystem;
-using Clock = StopToken::Clock;
 
 struct ReconstructCommand {
   fs::path dataset, workcell, folder;
@@ -28,10 +28,6 @@ struct ReconstructCommand {
   bool json = false, no_pictures = false;
   int threads = 0;
 };
-
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 void write_overlays(const BopScene& scene, const SceneReconstruction& reconstruction,
                     const std::vector<KnownObject>& objects, const fs::path& folder,
@@ -67,7 +63,7 @@ WorldRecord record_of(const ReconstructCommand& command, const BopScene& scene,
 }
 
 ExitCode reconstruct_command(const ReconstructCommand& command) {
-  const auto start = Clock::now();
+  const auto start = StopToken::Clock::now();
   const StopToken stop;
   const Interrupt interrupt({stop});
   Workers workers(command.threads);

@@ -1,15 +1,12 @@
 #include "shadow_filter_json.hpp"
 
+#include "optional_json.hpp"
 #include "version.hpp"
 
 namespace vantage {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-Json or_null(const std::optional<double>& value) {
-  return value ? Json(*value) : Json();
-}
 
 Json filter_json(const ShadowFilterEvaluation& evaluation, std::size_t i) {
   const ShadowFilter& filter = evaluation.filters[i];

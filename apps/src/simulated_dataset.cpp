@@ -8,6 +8,7 @@
 
 #include "pose_json.hpp"
 #include "simulator/sample_hash.hpp"
+#include "units.hpp"
 #include "vantage/raycore/error.hpp"
 #include "vantage/raycore/file.hpp"
 #include "vantage/raycore/image_io.hpp"
@@ -18,8 +19,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
-
-constexpr double kMm = 1000;
 
 Json camera_json(const PinholeCamera& camera, double depth_scale_mm) {
   const Intrinsics& k = camera.intrinsics();
@@ -46,7 +45,8 @@ CountImage to_counts(const DepthImage& depth, double depth_scale_mm) {
   CountImage counts(depth.width(), depth.height());
   for (std::size_t i = 0; i < counts.samples.size(); ++i) {
     const double z = double(depth.metres()[i]);
-    if (!std::isnan(z)) counts.samples[i] = std::uint16_t(std::lround(kMm * z / depth_scale_mm));
+    if (std::isnan(z)) continue;
+    counts.samples[i] = std::uint16_t(std::lround(kMillimetres * z / depth_scale_mm));
   }
   return counts;
 }
@@ -63,14 +63,14 @@ std::string calibration_yaml(const Intrinsics& k, const Distortion& d) {
 }
 
 void check_depth_range(const CellCamera& camera, double depth_scale_mm) {
-  const double most = 65535 * depth_scale_mm / kMm, far_m = camera.camera.range().far_m;
+  const double most = 65535 * depth_scale_mm / kMillimetres, far_m = camera.camera.range().far_m;
   if (far_m <= most) return;
   throw bad_input(
       "--depth-scale-mm",
       fmt::format("{} mm a count reach {} m in 16 bits, but camera {} measures up to {} m; "
                   "use {} or more, or a nearer sensor.depth_range_m",
                   depth_scale_mm, most, camera.name, far_m,
-                  std::ceil(far_m * kMm / 65535 * 100) / 100));
+                  std::ceil(far_m * kMillimetres / 65535 * 100) / 100));
 }
 
 void write_calibrations(const Workcell& workcell, const RecordingOptions& options,

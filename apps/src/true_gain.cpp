@@ -26,7 +26,7 @@ PinholeCamera suggested_view(const Value& plan) {
                        camera.place());
 }
 
-double share(double part, double whole) {
+double share_or_zero(double part, double whole) {
   return whole > 0 ? part / whole : 0;
 }
 
@@ -53,8 +53,8 @@ Json true_gain(const std::filesystem::path& workcell_file, const std::filesystem
           {"promised_m3", promised},
           {"true_gain_m3", gain},
           {"true_hidden_m3", hidden},
-          {"gain_of_promised", share(gain, promised)},
-          {"gain_of_hidden", share(gain, hidden)}};
+          {"gain_of_promised", share_or_zero(gain, promised)},
+          {"gain_of_hidden", share_or_zero(gain, hidden)}};
 }
 
 std::string summary_of_true_gain(const Json& gain) {

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "pose_json.hpp"
+
 namespace vantage {
 namespace {
 
@@ -11,10 +13,6 @@ constexpr std::size_t kMostRegions = 20;
 
 double volume_m3(const Plan& plan, std::uint64_t voxels) {
   return double(voxels) * plan.classified->geometry().voxel_volume_m3();
-}
-
-Json to_json(const Eigen::Vector3d& v) {
-  return Json::array({v.x(), v.y(), v.z()});
 }
 
 Json region_json(const ShadowRegion& region, const GridGeometry& geometry) {

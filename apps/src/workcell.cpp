@@ -18,7 +18,6 @@ namespace vantage {
 namespace {
 
 namespace fs = std::filesystem;
-using nlohmann::json;
 
 /// A file, or a list of files, that a value names.
 std::vector<fs::path> named_files(const Value& value, const fs::path& folder,

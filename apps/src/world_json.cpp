@@ -7,6 +7,7 @@
 
 #include "inputs_json.hpp"
 #include "pose_json.hpp"
+#include "run_time.hpp"
 #include "version.hpp"
 
 namespace vantage {
@@ -17,10 +18,6 @@ using Json = nlohmann::ordered_json;
 /// As many digits as a measurement has, and no more.
 double rounded(double value, double step) {
   return std::round(value / step) * step;
-}
-
-double milliseconds(double seconds) {
-  return rounded(seconds * 1e3, 1e-3);
 }
 
 Json located_json(const LocatedPose& pose) {

@@ -13,8 +13,8 @@ std::string text(const Eigen::Vector3f& p) {
   return fmt::format("[{}, {}, {}]", p.x(), p.y(), p.z());
 }
 
-bool in_reach(const Eigen::Vector3f& p) {
-  return detail::in_reach(p.x(), p.y(), p.z());
+bool is_in_reach(const Eigen::Vector3f& p) {
+  return in_reach(p.x(), p.y(), p.z());
 }
 
 }  // namespace
@@ -36,7 +36,7 @@ void check_packets(std::size_t points, std::span<const std::uint32_t> packets,
 }
 
 void refuse_segment(std::size_t index, const Eigen::Vector3f& from, const Eigen::Vector3f& to) {
-  const bool zero = in_reach(from) && from == to;
+  const bool zero = is_in_reach(from) && from == to;
   throw bad_input(
       fmt::format("segment {}", index),
       fmt::format("it goes from {} to {}; expected {}", text(from), text(to),
@@ -55,7 +55,7 @@ void refuse_first_ray(const PointLanes& origins, PointsView directions) {
   for (std::size_t i = 0; i < directions.size; ++i) {
     const Eigen::Vector3f o = origins[i], d = directions[i];
     if (valid_ray(o.x(), o.y(), o.z(), d.x(), d.y(), d.z())) continue;
-    const bool zero = in_reach(o) && d.isZero(0);
+    const bool zero = is_in_reach(o) && d.isZero(0);
     throw bad_input(fmt::format("ray {}", i),
                     fmt::format("its origin is {}, its direction {}; expected {}", text(o), text(d),
                                 zero ? "a direction that is not zero"

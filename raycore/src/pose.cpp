@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <Eigen/SVD>
+#include <cmath>
 #include <string>
 
 #include "vantage/raycore/error.hpp"
@@ -80,6 +81,17 @@ Pose Pose::looking_at(const Eigen::Vector3d& eye, const Eigen::Vector3d& target)
   axes.col(0) = forward.cross(up).normalized();
   axes.col(1) = forward.cross(axes.col(0));
   return {axes, eye};
+}
+
+Eigen::Quaterniond rotation_between(const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
+  const Eigen::Vector3d a = from.normalized(), b = to.normalized();
+  const Eigen::Vector3d across = a.cross(b);
+  const double sine = across.norm();
+  if (sine == 0 && a.dot(b) > 0) return Eigen::Quaterniond::Identity();
+  const Eigen::Vector3d axis = sine == 0 ? a.unitOrthogonal() : Eigen::Vector3d(across / sine);
+  // Half the angle's cosine and sine, without cancellation near half a turn.
+  const Eigen::Vector3d v = 0.5 * (a - b).norm() * axis;
+  return Eigen::Quaterniond(0.5 * (a + b).norm(), v.x(), v.y(), v.z()).normalized();
 }
 
 Eigen::Quaterniond Pose::quaternion() const {

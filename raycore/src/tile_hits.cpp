@@ -17,7 +17,8 @@ namespace {
 
 constexpr int kSide = PixelTile::kSide;
 
-[[gnu::always_inline]] inline void load(const TileRays& rays, float t_far, RTCRayHit16& packet) {
+[[gnu::always_inline]] inline void load_tile(const TileRays& rays, float t_far,
+                                             RTCRayHit16& packet) {
 #pragma GCC unroll 1
   for (std::size_t i = 0; i < kPacketWidth; ++i) packet.ray.dir_x[i] = rays.x[i];
 #pragma GCC unroll 1
@@ -32,7 +33,7 @@ constexpr int kSide = PixelTile::kSide;
   }
 }
 
-[[gnu::always_inline]] inline void store(const RTCRayHit16& packet, TileHits& hits) {
+[[gnu::always_inline]] inline void store_tile(const RTCRayHit16& packet, TileHits& hits) {
 #pragma GCC unroll 1
   for (std::size_t i = 0; i < kPacketWidth; ++i) {
     const unsigned geometry = packet.hit.geomID[i], instance = packet.hit.instID[0][i];
@@ -43,10 +44,11 @@ constexpr int kSide = PixelTile::kSide;
   }
 }
 
-VANTAGE_MULTIVERSION
-void trace_tiles(const PacketJob& job, const Intrinsics& k, const PixelRotation& R,
-                 const Eigen::Vector3f& origin, const PixelTile* tiles, std::size_t count,
-                 TileHits* hits) {
+[[gnu::always_inline]] inline void trace_tiles_body(const PacketJob& job, const Intrinsics& k,
+                                                    const PixelRotation& R,
+                                                    const Eigen::Vector3f& origin,
+                                                    const PixelTile* tiles, std::size_t count,
+                                                    TileHits* hits) {
   QueryContext context(job.coherent);
   alignas(64) RTCRayHit16 packet{};
   alignas(64) int valid[kPacketWidth];
@@ -70,12 +72,13 @@ void trace_tiles(const PacketJob& job, const Intrinsics& k, const PixelRotation&
       fill_axis<2>(R, x, y, rays[tile - first].z);
     }
     for (std::size_t tile = first; tile < last; ++tile) {
-      load(rays[tile - first], job.t_far, packet);
+      load_tile(rays[tile - first], job.t_far, packet);
       context.intersect16(valid, job.scene, &packet);
-      store(packet, hits[tile]);
+      store_tile(packet, hits[tile]);
     }
   }
 }
+constexpr Multiversion<trace_tiles_body> trace_tiles;
 
 }  // namespace
 }  // namespace detail

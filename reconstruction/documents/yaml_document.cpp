@@ -18,8 +18,8 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::size_t kMaxBytes = std::size_t(16) << 20;
-constexpr int kMaxDepth = 64;
+constexpr std::size_t kMaxYamlBytes = std::size_t(16) << 20;
+constexpr int kMaxYamlDepth = 64;
 constexpr std::size_t kMaxValues = 100'000;
 
 int line_of(const YAML::Node& node) {
@@ -82,9 +82,9 @@ class Converter {
 
   json convert(const YAML::Node& node, const std::string& pointer, int depth) {
     document_.lines.try_emplace(pointer, line_of(node));
-    if (depth > kMaxDepth) {
+    if (depth > kMaxYamlDepth) {
       // An alias to something that it is part of ends here, too.
-      fail(node, fmt::format("nested deeper than {} levels", kMaxDepth));
+      fail(node, fmt::format("nested deeper than {} levels", kMaxYamlDepth));
     }
     if (++values_ > kMaxValues) {
       fail(node, fmt::format("more than {} values, aliases expanded; expected a file of settings",
@@ -181,7 +181,7 @@ Document parse_yaml(std::string_view text, const std::string& name) {
 }
 
 Document read_yaml(const std::filesystem::path& path) {
-  const std::vector<std::uint8_t> bytes = read_file(path, kMaxBytes);
+  const std::vector<std::uint8_t> bytes = read_file(path, kMaxYamlBytes);
   return parse_yaml({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, path.string());
 }
 

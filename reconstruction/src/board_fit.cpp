@@ -9,8 +9,8 @@
 namespace vantage::detail {
 namespace {
 
-constexpr int kMostRounds = 20;
-constexpr double kLossSigmas = 3;
+constexpr int kMostSelections = 20;
+constexpr double kBoardLossSigmas = 3;
 
 double worst_residual(const PointTerm& term, const Pose& T_cam_world) {
   const std::vector<double> residuals = residuals_px(term, T_cam_world);
@@ -65,9 +65,9 @@ std::optional<BoardFit> settle(std::span<const BoardPair> pairs, const Pose& T_c
   BoardFit board{agreement(pairs, T_cam_world, kRough * inlier_px).pairs, {}};
   board.fit.T_ref_body = T_cam_world;
   double tolerance_px = kRough * inlier_px;
-  for (int round = 0; round < kMostRounds; ++round) {
+  for (int round = 0; round < kMostSelections; ++round) {
     if (board.points(pairs) < 4) return {};
-    const auto fit = fit_pairs(pairs, board.pairs, board.T_cam_world(), kLossSigmas);
+    const auto fit = fit_pairs(pairs, board.pairs, board.T_cam_world(), kBoardLossSigmas);
     if (!fit) return {};
     board.fit = *fit;
     std::vector<std::size_t> inliers = agreement(pairs, board.T_cam_world(), inlier_px).pairs;

@@ -7,7 +7,7 @@
 namespace vantage::detail {
 namespace {
 
-std::string name_of(const FeatureKey& key) {
+std::string key_text(const FeatureKey& key) {
   return key.type + " " + key.value;
 }
 
@@ -36,7 +36,7 @@ SeenBoard look_for(const Lens& lens, std::span<const Observation> observations,
     if (of_board) seen.observations.push_back(o);
     seen.sound += sound ? 1 : 0;
     if (of_board && !sound && seen.fault.empty()) {
-      seen.fault = name_of(observations[o].key) + ": " + fault;
+      seen.fault = key_text(observations[o].key) + ": " + fault;
     }
   }
   return seen;
@@ -46,9 +46,9 @@ std::string lack_of(const SeenBoard& seen, std::span<const Observation> observat
                     std::span<const ObjectFeature> board) {
   if (seen.observations.empty()) {
     std::string example;
-    if (!observations.empty()) example = fmt::format(" (e.g. {})", name_of(observations[0].key));
+    if (!observations.empty()) example = fmt::format(" (e.g. {})", key_text(observations[0].key));
     std::string wanted;
-    if (!board.empty()) wanted = fmt::format(" (e.g. {})", name_of(board.front().key));
+    if (!board.empty()) wanted = fmt::format(" (e.g. {})", key_text(board.front().key));
     return fmt::format(
         "no marker of the board is seen: {} observations{}, none of them one of the board's {} "
         "features{}; turn the camera to the board, or name the board's markers in the workcell",

@@ -14,7 +14,7 @@
 namespace vantage::detail {
 
 /// A value as the user wrote it, cut off where it gets long.
-inline std::string shown(const nlohmann::json& value) {
+inline std::string excerpt(const nlohmann::json& value) {
   std::size_t longest = 60;
   std::string text = value.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
   if (text.size() > longest) {
@@ -34,7 +34,7 @@ std::array<double, kCount> numbers_of(const nlohmann::json& found, const std::st
     throw bad_input(where,
                     fmt::format("found {}{}; expected {} numbers",
                                 found.is_array() ? fmt::format("{} values, ", found.size()) : "",
-                                shown(found), kCount));
+                                excerpt(found), kCount));
   }
   return found.get<std::array<double, kCount>>();
 }
@@ -58,7 +58,7 @@ class Entry {
     if (!value.is_object()) {
       throw bad_input(where_, fmt::format("found {}; expected an object with cam_K and the other "
                                           "keys of one image",
-                                          shown(value)));
+                                          excerpt(value)));
     }
   }
 
@@ -74,7 +74,7 @@ class Entry {
   double positive(const char* key) const {
     const nlohmann::json& found = required(key);
     if (!found.is_number() || !(found.get<double>() > 0)) {
-      throw bad_input(where(key), fmt::format("found {}; expected a number > 0", shown(found)));
+      throw bad_input(where(key), fmt::format("found {}; expected a number > 0", excerpt(found)));
     }
     return found.get<double>();
   }

@@ -22,8 +22,8 @@ namespace {
 
 namespace fs = std::filesystem;
 using detail::Entry;
+using detail::excerpt;
 using detail::ImageSize;
-using detail::shown;
 using nlohmann::json;
 
 using Entries = std::map<int, Entry>;
@@ -32,7 +32,7 @@ Entries entries_by_id(const fs::path& file, const json& root) {
   if (!root.is_object() || root.empty()) {
     throw bad_input(file.string(), fmt::format("found {}; expected an object with one entry per "
                                                "image, such as \"0\": {{\"cam_K\": …}}",
-                                               shown(root)));
+                                               excerpt(root)));
   }
   Entries entries;
   for (const auto& [key, value] : root.items()) {
@@ -78,7 +78,7 @@ Intrinsics read_intrinsics(const Entry& entry, ImageSize size) {
   if (k[1] != 0 || k[3] != 0 || k[6] != 0 || k[7] != 0 || k[8] != 1) {
     throw bad_input(where, fmt::format("found {}; expected [fx, 0, cx, 0, fy, cy, 0, 0, 1], "
                                        "row by row and without skew",
-                                       shown(json(k))));
+                                       excerpt(json(k))));
   }
   const Intrinsics intrinsics{size.width, size.height, k[0], k[4], k[2], k[5]};
   intrinsics.check(where);

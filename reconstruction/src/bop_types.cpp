@@ -23,7 +23,7 @@ constexpr double kMetresPerMm = 0.001;
 std::vector<json> list_of(const json& info, const char* key, const std::string& where) {
   if (!info.contains(key)) return {};
   if (!info[key].is_array()) {
-    throw bad_input(where, fmt::format("found {}; expected a list", shown(info[key])));
+    throw bad_input(where, fmt::format("found {}; expected a list", excerpt(info[key])));
   }
   return info[key];
 }
@@ -44,7 +44,7 @@ Pose read_motion(const json& value, const std::string& where) {
 ContinuousSymmetry read_line(const json& value, const std::string& where) {
   if (!value.is_object() || !value.contains("axis")) {
     throw bad_input(
-        where, fmt::format("found {}; expected an object with the key \"axis\"", shown(value)));
+        where, fmt::format("found {}; expected an object with the key \"axis\"", excerpt(value)));
   }
   const auto axis = numbers_of<3>(value["axis"], where + ".axis");
   const Eigen::Vector3d direction(axis[0], axis[1], axis[2]);
@@ -90,7 +90,7 @@ class ModelFolder {
     if (!root.is_object()) {
       throw bad_input(info_.string(), fmt::format("found {}; expected an object with one entry per "
                                                   "model, such as \"1\": {{\"diameter\": …}}",
-                                                  shown(root)));
+                                                  excerpt(root)));
     }
     std::map<int, std::string> keys;  // in the order of the ids, not of their digits
     for (const auto& [key, unused] : root.items()) take(keys, key);
@@ -115,7 +115,7 @@ class ModelFolder {
     if (!info.is_object()) {
       throw bad_input(where, fmt::format("found {}; expected an object with what is known of the "
                                          "model",
-                                         shown(info)));
+                                         excerpt(info)));
     }
     ObjectType type{.name = fmt::format("obj_{:06}", id)};
     const fs::path file = folder_ / (type.name + ".ply");

@@ -30,9 +30,6 @@ struct Elected {
   double net = 0;                 ///< votes for the best way, less those against it
 };
 
-/// Sightings that are no coincidence.
-inline constexpr std::size_t kFirm = 3;
-
 /// How many sightings both explain.
 std::size_t common(const Explanation& a, const Explanation& b);
 

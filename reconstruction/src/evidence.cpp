@@ -11,7 +11,7 @@
 namespace vantage::detail {
 namespace {
 
-constexpr int kMostSteps = 25;
+constexpr int kMostRefinements = 25;
 constexpr double kTurnSigmaRad = 10;  // a measured pose says nothing of turns around a symmetry
 
 Eigen::Quaterniond rotation_of(const Eigen::Vector3d& vector) {
@@ -161,7 +161,7 @@ std::optional<Refined> refine(std::span<const Reading* const> readings, const Po
   Refined best = summed(readings, start, least_sigma_px);
   if (!best.sum.in_front) return std::nullopt;
   double damping = 1e-4;
-  for (int step = 0; step < kMostSteps && damping < 1e6; ++step) {
+  for (int step = 0; step < kMostRefinements && damping < 1e6; ++step) {
     Matrix6d damped = best.sum.information;
     damped.diagonal() *= 1 + damping;
     const Eigen::LDLT<Matrix6d> solver(damped);

@@ -25,6 +25,11 @@ struct Reading {
   const ObjectType& type() const { return *feature->type; }
 };
 
+/// Whether both may come of one object: it shows each of its features by a sighting of its own.
+inline bool go_together(const Reading& a, const Reading& b) {
+  return a.number != b.number && a.feature != b.feature;
+}
+
 /// What a reading says at a pose: chi-square and its derivatives by (t, r), see Matrix6d.
 struct Evidence {
   Matrix6d information = Matrix6d::Zero();  ///< JᵀWJ

@@ -11,6 +11,9 @@ namespace vantage::detail {
 /// Points that an object has to explain: three fit several poses exactly.
 inline constexpr int kFewestPoints = 4;
 
+/// Sightings that are no coincidence.
+inline constexpr std::size_t kFirm = 3;
+
 /// What counts as explained.
 struct Bounds {
   double inlier_px = 3;

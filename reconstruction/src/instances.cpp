@@ -8,8 +8,6 @@
 namespace vantage::detail {
 namespace {
 
-constexpr std::size_t kFirm = 3;  // sightings that are no coincidence
-
 /// Sets of types that are one, by union and find.
 class TypeSets {
  public:

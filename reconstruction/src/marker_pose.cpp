@@ -70,7 +70,7 @@ Eigen::Vector3d vector_of(const cv::Mat& m) {
   return {m.at<double>(0), m.at<double>(1), m.at<double>(2)};
 }
 
-std::optional<Pose> pose_of(const cv::Mat& turn, const cv::Mat& translation) {
+std::optional<Pose> pose_from_opencv(const cv::Mat& turn, const cv::Mat& translation) {
   const Eigen::Vector3d r = vector_of(turn), t = vector_of(translation);
   if (!r.allFinite() || !t.allFinite()) return {};
   const double angle = r.norm();
@@ -123,7 +123,7 @@ std::vector<PoseGuess> guess_poses(const Lens& lens, std::span<const Eigen::Vect
   const std::vector<cv::Mat> turns = solutions(*pairs, frame.planar(), translations);
   std::vector<PoseGuess> guesses;
   for (std::size_t i = 0; i < turns.size(); ++i) {
-    const auto T_cam_frame = pose_of(turns[i], translations[i]);
+    const auto T_cam_frame = pose_from_opencv(turns[i], translations[i]);
     if (!T_cam_frame) continue;
     const Pose T_cam_body = *T_cam_frame * T_frame_body;
     const double rms = rms_of(term, T_cam_body);

@@ -11,7 +11,7 @@
 namespace vantage::detail {
 namespace {
 
-constexpr double kMissed = 0.2, kHidden = 0.15, kWrongId = 0.05;
+constexpr double kMissed = 0.2, kHidden = 0.15;
 constexpr double kLeastSidePx = 30;   // smaller markers may well not be found
 constexpr double kLeastFacing = 0.5;  // sine of the angle between the marker and the sight
 constexpr double kBorderPx = 10;      // white around it has to be in the image too

@@ -8,6 +8,9 @@
 
 namespace vantage::detail {
 
+/// The share of sightings whose id is wrong.
+inline constexpr double kWrongId = 0.05;
+
 /// An object with all ways to explain its sightings, the most probable first.
 struct Candidate {
   std::vector<FinalFit> ways;

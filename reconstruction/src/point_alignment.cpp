@@ -5,7 +5,7 @@
 namespace vantage::detail {
 namespace {
 
-constexpr double kFlat = 1e-9;  // second singular value over the first, for collinear points
+constexpr double kCollinear = 1e-9;  // second singular value over the first, for collinear points
 
 Eigen::Vector3d centroid(std::span<const Eigen::Vector3d> points) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
@@ -25,7 +25,7 @@ std::optional<Pose> align_points(std::span<const Eigen::Vector3d> from,
   }
   const Eigen::JacobiSVD<Eigen::Matrix3d> svd(h, Eigen::ComputeFullU | Eigen::ComputeFullV);
   const Eigen::Vector3d& s = svd.singularValues();
-  if (!(s[1] > kFlat * s[0])) return std::nullopt;  // also for NaN
+  if (!(s[1] > kCollinear * s[0])) return std::nullopt;  // also for NaN
   const Eigen::Matrix3d& u = svd.matrixU();
   const Eigen::Matrix3d& v = svd.matrixV();
   const double sign = (v * u.transpose()).determinant() < 0 ? -1 : 1;

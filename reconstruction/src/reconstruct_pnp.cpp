@@ -10,9 +10,8 @@
 #include "instances.hpp"
 
 namespace vantage {
+namespace detail {
 namespace {
-
-using namespace detail;
 
 /// Labels have no pixels that a pose could be fitted to.
 void leave_out_labels(Gathered& gathered) {
@@ -135,9 +134,11 @@ void explain_rest(const std::vector<Component>& components, const std::vector<ch
 }
 
 }  // namespace
+}  // namespace detail
 
 Reconstruction reconstruct_pnp(std::span<const CameraView> views, const KnowledgeBase& knowledge,
                                const ReconstructOptions& options, const StopToken& stop) {
+  using namespace detail;
   Gathered gathered = gather(views, knowledge, options);
   leave_out_labels(gathered);
   const Bounds bounds{options.inlier_px};

@@ -9,9 +9,8 @@
 #include "point_alignment.hpp"
 
 namespace vantage {
+namespace detail {
 namespace {
-
-using namespace detail;
 
 /// A sighting's points in space, as its camera alone finds them.
 struct Placed {
@@ -78,9 +77,11 @@ void reconstruct_type(const std::vector<Placed>& placed, Reconstruction& result)
 }
 
 }  // namespace
+}  // namespace detail
 
 Reconstruction reconstruct_svd(std::span<const CameraView> views, const KnowledgeBase& knowledge,
                                const ReconstructOptions& options, const StopToken& stop) {
+  using namespace detail;
   Gathered gathered = gather(views, knowledge, options);
   Reconstruction result{{}, std::move(gathered.unexplained), StopReason::none};
   std::map<std::string, std::vector<Placed>> by_type;

@@ -7,9 +7,8 @@
 #include "election.hpp"
 
 namespace vantage {
+namespace detail {
 namespace {
-
-using namespace detail;
 
 VoteGrid grid_for(const ReconstructOptions& options) {
   VoteGrid grid;
@@ -68,9 +67,11 @@ void explain_rest(const Ballot& ballot, const Election& election, Reconstruction
 }
 
 }  // namespace
+}  // namespace detail
 
 Reconstruction reconstruct_voting(std::span<const CameraView> views, const KnowledgeBase& knowledge,
                                   const ReconstructOptions& options, const StopToken& stop) {
+  using namespace detail;
   Gathered gathered = gather(views, knowledge, options);
   Reconstruction result;
   result.unexplained = std::move(gathered.unexplained);

@@ -12,7 +12,7 @@ namespace {
 
 using Matrix9d = Eigen::Matrix<double, 9, 9>;
 
-constexpr int kMostRounds = 8;
+constexpr int kMostCornerMoves = 8;
 constexpr double kSettledPx = 0.002;  ///< a smaller step of the corners is the last one
 constexpr double kSupport = 0.6;
 constexpr double kMaxSigmaPx = 0.5;
@@ -112,7 +112,7 @@ std::optional<RefinedCorners> refine_corners(const cv::Mat1f& light,
   if (!map) return std::nullopt;
   Step step;
   RefinedCorners refined;
-  for (int round = 0; round < kMostRounds; ++round) {
+  for (int round = 0; round < kMostCornerMoves; ++round) {
     const auto spots = edge_spots(light, *map, edges, cells);
     step = solve(spots);
     if (!step.by.allFinite()) return std::nullopt;

@@ -12,7 +12,7 @@ namespace vantage::detail {
 namespace {
 
 constexpr std::size_t kMostTriples = 200;  // for each view and type
-constexpr double kFlat = 1e-6;             // collinear: second largest variance over the largest
+constexpr double kLeastVariance = 1e-6;    // collinear: second largest variance over the largest
 
 using Readings = std::vector<const Reading*>;
 
@@ -25,7 +25,7 @@ bool enough_for_a_pose(const Reading& reading) {
   Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
   for (const Eigen::Vector3d& p : points) spread += (p - mean) * (p - mean).transpose();
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(spread, Eigen::EigenvaluesOnly);
-  return solver.eigenvalues()[1] > kFlat * solver.eigenvalues()[2];
+  return solver.eigenvalues()[1] > kLeastVariance * solver.eigenvalues()[2];
 }
 
 double size_px(const Readings& readings) {
@@ -65,10 +65,6 @@ class Collector {
  private:
   std::map<std::vector<std::size_t>, SeedGroup> groups_;
 };
-
-bool go_together(const Reading& a, const Reading& b) {
-  return a.number != b.number && a.feature != b.feature;
-}
 
 /// Sightings of few points in one view, read as one type: all of them, if they may be one object,
 /// and three at a time.

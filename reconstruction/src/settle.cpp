@@ -6,7 +6,7 @@
 namespace vantage::detail {
 namespace {
 
-constexpr int kMostRounds = 10;
+constexpr int kMovesPerSighting = 10;
 
 std::vector<const Reading*> joined(const Explanation& a, const Explanation& b) {
   std::vector<const Reading*> readings = a.readings;
@@ -97,7 +97,7 @@ bool move_any(std::vector<Explanation>& objects, const Component& component, con
 }  // namespace
 
 void settle(std::vector<Explanation>& objects, const Component& component, const Bounds& bounds) {
-  const std::size_t most = kMostRounds * (1 + component.sightings.size());
+  const std::size_t most = kMovesPerSighting * (1 + component.sightings.size());
   for (std::size_t step = 0; step < most; ++step) {
     if (!merge_any(objects, bounds) && !move_any(objects, component, bounds)) return;
   }

@@ -12,7 +12,7 @@ namespace {
 constexpr double kSameM = 5e-4, kSameRad = 5e-3;
 constexpr int kSweeps = 10;  // for spheres, which have several axes
 
-bool same(const Pose& a, const Pose& b) {
+bool nearly_same(const Pose& a, const Pose& b) {
   const Eigen::AngleAxisd turn(Eigen::Matrix3d(a.rotation().transpose() * b.rotation()));
   return (a.translation() - b.translation()).norm() <= kSameM && turn.angle() <= kSameRad;
 }
@@ -48,10 +48,10 @@ Eigen::Matrix<double, 6, 1> turn_direction(const ContinuousSymmetry& symmetry,
 }
 
 bool equivalent(const ObjectType& type, const Pose& a, const Pose& b) {
-  if (same(turned_towards(type, a, b), b)) return true;
+  if (nearly_same(turned_towards(type, a, b), b)) return true;
   const auto& discrete = type.symmetries.discrete;
   return std::any_of(discrete.begin(), discrete.end(), [&](const Pose& symmetry) {
-    return same(turned_towards(type, a * symmetry, b), b);
+    return nearly_same(turned_towards(type, a * symmetry, b), b);
   });
 }
 

@@ -11,10 +11,6 @@ constexpr std::size_t kNeighbours = 4;
 
 using Readings = std::vector<const Reading*>;
 
-bool go_together(const Reading& a, const Reading& b) {
-  return a.number != b.number && a.feature != b.feature;
-}
-
 double distance_px(const Reading& a, const Reading& b) {
   return (a.sighting->points()->pixels.front() - b.sighting->points()->pixels.front()).norm();
 }

@@ -7,8 +7,6 @@
 namespace vantage::detail {
 namespace {
 
-constexpr double kWrongId = 0.05;  // the share of observations that are none
-
 /// What the fit says against a way: chi-square above what noise makes of it, less what a sighting
 /// that it explains is worth, as it needs no wrong id to explain it.
 double cost_of(const FinalFit& fit, double scale) {

@@ -10,7 +10,7 @@
 namespace vantage::test {
 namespace {
 
-constexpr std::string_view kCell =
+constexpr std::string_view kInputCell =
     "work_area: {min_m: [-1, -1, 0], max_m: [1, 1, 0.5]}\n"
     "knowledge_base: types.yaml\n"
     "known_objects: [{name: a, type: cube, pose: {translation_m: [0.1, 0.2, 0.3]}}]\n"
@@ -30,7 +30,7 @@ TEST_CASE("the planner gets objects of types with their meshes, and nothing of t
                "object_types: [{name: cube, shape: {box: {size_m: [0.1, 0.2, 0.4]}}}]\n");
   PlanOptions options;
   options.dataset = scene.path();
-  options.workcell = folder.write("cell.yaml", kCell);
+  options.workcell = folder.write("cell.yaml", kInputCell);
   const PlanInput input = load_plan_input(options);
 
   REQUIRE(input.world.objects.size() == 1);  // those at random have to be found

@@ -4,6 +4,7 @@
 
 #include <cstring>
 
+#include "cell_files.hpp"
 #include "support/test_data.hpp"
 #include "vantage/raycore/error.hpp"
 
@@ -13,10 +14,6 @@ namespace {
 PlanningCell load(const std::filesystem::path& file, const std::string& rest,
                   DepthKind usual = DepthKind::none) {
   return load_planning_cell(planning_cell_name(file.string() + rest), usual, 0);
-}
-
-std::filesystem::path shipped(const char* name) {
-  return assets() / "workcells" / (std::string(name) + ".yaml");
 }
 
 template <class Work>
@@ -59,7 +56,7 @@ TEST_CASE("a scene's name that is none") {
 }
 
 TEST_CASE("a cell has the cameras that are asked for, in that order, and known objects alone") {
-  const PlanningCell both = load(shipped("corridor"), ":right,left");
+  const PlanningCell both = load(shipped_workcell("corridor"), ":right,left");
   CHECK(both.name == "corridor:right,left");
   CHECK(both.depth == "none");
   REQUIRE(both.world.cameras.size() == 2);
@@ -72,30 +69,30 @@ TEST_CASE("a cell has the cameras that are asked for, in that order, and known o
   for (const KnownObject& object : both.world.objects) CHECK(object.name != "gray");
   CHECK(both.world.static_structures.size() == 4);
   CHECK(both.scene.bodies().size() == 1 + 4 + 9);  // with the board
-  CHECK(both.files.front() == shipped("corridor"));
-  const PlanningCell all = load(shipped("corridor"), "");
+  CHECK(both.files.front() == shipped_workcell("corridor"));
+  const PlanningCell all = load(shipped_workcell("corridor"), "");
   CHECK(all.world.cameras.size() == 4);
   CHECK(all.world.objects.size() == 9);
 }
 
 TEST_CASE("foreign objects are in the depth images, and nowhere else") {
-  const PlanningCell blind = load(shipped("foreign_objects"), "");
+  const PlanningCell blind = load(shipped_workcell("foreign_objects"), "");
   CHECK(blind.world.objects.empty());
   CHECK(blind.scene.bodies().size() > 10);
-  const PlanningCell seeing = load(shipped("foreign_objects"), "+ideal");
+  const PlanningCell seeing = load(shipped_workcell("foreign_objects"), "+ideal");
   CHECK(seeing.name == "foreign_objects:front+ideal");
   REQUIRE(seeing.world.cameras[0].depth != nullptr);
-  const PlanningCell usual = load(shipped("foreign_objects"), "", DepthKind::noisy);
+  const PlanningCell usual = load(shipped_workcell("foreign_objects"), "", DepthKind::noisy);
   CHECK(usual.name == "foreign_objects:front+noisy");
   const auto exact = seeing.world.cameras[0].depth->metres();
   const auto noisy = usual.world.cameras[0].depth->metres();
   REQUIRE(exact.size() == noisy.size());
   CHECK(std::memcmp(exact.data(), noisy.data(), exact.size_bytes()) != 0);  // NaN is unequal to NaN
-  CHECK(load(shipped("foreign_objects"), "+none", DepthKind::noisy).depth == "none");
+  CHECK(load(shipped_workcell("foreign_objects"), "+none", DepthKind::noisy).depth == "none");
 }
 
 TEST_CASE("cells that cannot be evaluated say why") {
-  const std::string wall = shipped("wall").string();
+  const std::string wall = shipped_workcell("wall").string();
   expect_refusal([&] { load(wall, ":back"); }, wall,
                  "it has no camera \"back\"; expected one or more of: front, top, side");
   expect_refusal([&] { load(wall, ":top,top"); }, wall, "camera \"top\" is named twice");

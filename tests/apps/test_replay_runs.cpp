@@ -13,7 +13,7 @@ namespace vantage::test {
 namespace {
 
 constexpr Intrinsics kSmall{64, 48, 60, 60, 31.5, 23.5};
-const Box kArea({-0.3, -0.3, 0}, {0.3, 0.3, 0.3});
+const Box kReplayArea({-0.3, -0.3, 0}, {0.3, 0.3, 0.3});
 
 /// A post and a low block on the floor, as cameras all around see them.
 std::shared_ptr<const Scene> post_and_block() {
@@ -25,7 +25,7 @@ std::shared_ptr<const Scene> post_and_block() {
 }
 
 PlanInput recording(const std::vector<Eigen::Vector3d>& eyes) {
-  PlanInput input{{}, {.work_area = kArea, .intrinsics = kSmall}, {}, {}};
+  PlanInput input{{}, {.work_area = kReplayArea, .intrinsics = kSmall}, {}, {}};
   input.request.range = {0.02, 3};
   input.request.voxel_size_m = 0.03;
   const auto scene = post_and_block();
@@ -81,8 +81,8 @@ std::size_t newly_known(const StateGrid& before, const StateGrid& after) {
   return known;
 }
 
-void expect_refused(const PlanInput& input, const ReplaySettings& settings, const char* where,
-                    const char* part) {
+void expect_replay_refused(const PlanInput& input, const ReplaySettings& settings,
+                           const char* where, const char* part) {
   try {
     evaluate_replay(input, settings);
     FAIL("nothing was thrown");
@@ -103,7 +103,7 @@ TEST_CASE("real gain: the voxels that are known with the frame's depth image, co
     input.request.volume.anti_alias = anti_alias;
     const auto evaluation = evaluate_replay(input, settings_for({"voxel"}));
     REQUIRE(evaluation.pairs.size() == 4);
-    const auto geometry = GridGeometry::covering(kArea, input.request.voxel_size_m);
+    const auto geometry = GridGeometry::covering(kReplayArea, input.request.voxel_size_m);
     for (const ReplayPair& pair : evaluation.pairs) {
       const auto [a, b] = pair.frames;
       const auto before = classify(world_of(input, {a, b}), geometry, input.request.volume);
@@ -227,20 +227,20 @@ TEST_CASE("recordings that cannot be replayed are refused") {
   const ReplaySettings settings = settings_for({"voxel"});
   PlanInput input = all_around();
   input.world.cameras[4].depth = nullptr;
-  expect_refused(input, settings, "image 40", "it has no depth image");
+  expect_replay_refused(input, settings, "image 40", "it has no depth image");
 
   input = all_around();
   input.world.cameras.erase(input.world.cameras.begin() + 2, input.world.cameras.end());
-  expect_refused(input, settings, "dataset", "found 2 frames");
+  expect_replay_refused(input, settings, "dataset", "found 2 frames");
 
   input = all_around();
   input.request.work_area = Box({5, 5, 0}, {5.6, 5.6, 0.3});
-  expect_refused(input, settings, "work area", "of 6 frames, 0 show at least 10 % of it");
+  expect_replay_refused(input, settings, "work area", "of 6 frames, 0 show at least 10 % of it");
 
   input = all_around();
   ReplaySettings strict = settings;
   strict.least_seen = 1;
-  expect_refused(input, strict, "work area", "lower --least-seen");
+  expect_replay_refused(input, strict, "work area", "lower --least-seen");
 }
 
 TEST_CASE("a cancelled replay comes back") {

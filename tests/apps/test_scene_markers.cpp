@@ -10,12 +10,11 @@
 #include "support/marker_tally.hpp"
 #include "support/scene_count.hpp"
 
+#include "cell_files.hpp"
 #include "support/test_data.hpp"
 
 namespace vantage::test {
 namespace {
-
-const std::filesystem::path kShipped = test::assets() / "workcells";
 
 struct PlacedMarker {
   Marker marker;
@@ -39,7 +38,7 @@ std::map<std::string, std::vector<PlacedMarker>> markers_of(const Workcell& cell
 /// Looks for all markers of a scene in the pictures of its cameras.
 void photograph(const std::string& name, MarkerTally& tally) {
   CAPTURE(name);
-  Workcell cell = load_workcell(kShipped / (name + ".yaml"));
+  Workcell cell = load_workcell(shipped_workcell(name));
   place_random_objects(cell);
   const SimulatedCell simulated = simulated_cell(cell);
   const auto markers = markers_of(cell);

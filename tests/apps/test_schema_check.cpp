@@ -44,7 +44,7 @@ const json kSchema = json::parse(R"({
       "properties": {"box": {"type": "number", "minimum": 0}, "mesh": {"type": "string"}}}
   }})");
 
-constexpr std::string_view kArea = "area: {min_m: [0, 0, 0], max_m: [1, 1, 1]}\n";
+constexpr std::string_view kGoodLine = "area: {min_m: [0, 0, 0], max_m: [1, 1, 1]}\n";
 
 void check_yaml(const std::string& text) {
   check_schema(parse_yaml(text, "cell.yaml"), kSchema);
@@ -54,15 +54,15 @@ void check_yaml(const std::string& text) {
 void expect_line_refused(const std::string& text, std::string_view where,
                          std::initializer_list<std::string_view> parts) {
   CAPTURE(text);
-  expect_refused([&] { check_yaml(std::string(kArea) + text); }, where, parts);
+  expect_refused([&] { check_yaml(std::string(kGoodLine) + text); }, where, parts);
 }
 
 }  // namespace
 
 TEST_CASE("a document that fits its schema passes") {
-  CHECK_NOTHROW(check_yaml(std::string(kArea)));
+  CHECK_NOTHROW(check_yaml(std::string(kGoodLine)));
   CHECK_NOTHROW(
-      check_yaml(std::string(kArea) +
+      check_yaml(std::string(kGoodLine) +
                  "size: 10\ncount: 1\nmethod: mesh\ntitle: ~\nname: x\nhash: 0a1b\non: true\n"
                  "list: [{box: 0}, {mesh: a.stl}]\nfree: {any: [thing]}\nlimits: {a: 1}\n"));
 }
@@ -127,7 +127,7 @@ TEST_CASE("one of two keys has to be there, and not both") {
 }
 
 TEST_CASE("what a value says of itself decides which keys it may have") {
-  CHECK_NOTHROW(check_yaml(std::string(kArea) +
+  CHECK_NOTHROW(check_yaml(std::string(kGoodLine) +
                            "ways: [{kind: ship, draught_m: 2}, {kind: van, wheels: 4}, {}]\n"));
   expect_line_refused("ways: [{kind: ship}]", "cell.yaml:2: ways[0].draught_m", {"missing"});
   expect_line_refused("ways: [{kind: ship, wheels: 4}]", "ways[0].wheels",

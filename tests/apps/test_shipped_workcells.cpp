@@ -10,6 +10,7 @@
 #include "simulator/collision.hpp"
 #include "support/scene_count.hpp"
 
+#include "cell_files.hpp"
 #include "support/test_data.hpp"
 
 namespace vantage::test {
@@ -18,10 +19,8 @@ namespace {
 namespace fs = std::filesystem;
 using Names = std::set<std::string>;
 
-const fs::path kShipped = test::assets() / "workcells";
-
 Workcell shipped(const std::string& name) {
-  Workcell cell = load_workcell(kShipped / (name + ".yaml"));
+  Workcell cell = load_workcell(shipped_workcell(name));
   place_random_objects(cell);
   return cell;
 }
@@ -32,7 +31,7 @@ const std::vector<std::string> kThesis{"castle", "corridor", "foreign_objects", 
 /// All that are not the thesis', but the board of a recording: nobody simulates that.
 std::vector<std::string> other_names() {
   std::vector<std::string> names;
-  for (const fs::directory_entry& entry : fs::directory_iterator(kShipped)) {
+  for (const fs::directory_entry& entry : fs::directory_iterator(shipped_workcells())) {
     const std::string name = entry.path().stem();
     if (entry.path().extension() != ".yaml" || name == "charuco") continue;
     if (std::find(kThesis.begin(), kThesis.end(), name) == kThesis.end()) names.push_back(name);

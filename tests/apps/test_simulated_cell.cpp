@@ -12,7 +12,7 @@
 namespace vantage::test {
 namespace {
 
-constexpr std::string_view kCell =
+constexpr std::string_view kSimulatedCell =
     "work_area: {min_m: [-0.2, -0.1, 0], max_m: [0.2, 0.1, 0.3]}\n"
     "knowledge_base: types.yaml\n"
     "foreign_objects: [{name: mug, shape: {cup: {radius_m: 0.03, height_m: 0.08, wall_m: 0.004}},\n"
@@ -28,7 +28,7 @@ std::string replaced(std::string_view text, std::string_view what, std::string_v
   return result.replace(result.find(what), what.size(), by);
 }
 
-Workcell load(const TemporaryFolder& folder, const std::string& text) {
+Workcell load_with_types(const TemporaryFolder& folder, const std::string& text) {
   folder.write("types.yaml",
                "object_types:\n"
                "  - {name: cube, shape: {box: {size_m: [0.05, 0.05, 0.05]}}}\n"
@@ -38,7 +38,8 @@ Workcell load(const TemporaryFolder& folder, const std::string& text) {
 
 /// With a board on the table, and `more` lines.
 Workcell with_board(const TemporaryFolder& folder, const std::string& more = "") {
-  return load(folder, replaced(kCell, "FLOOR", "-0.02") + replaced(kBoard, "AT", "-0.1") + more);
+  return load_with_types(
+      folder, replaced(kSimulatedCell, "FLOOR", "-0.02") + replaced(kBoard, "AT", "-0.1") + more);
 }
 
 bool close(const PlacedObject& a, const PlacedObject& b) {
@@ -98,15 +99,16 @@ TEST_CASE("the board's markers are printed on its top") {
 
 TEST_CASE("a marker beyond the board's edge is refused where the board stands") {
   TemporaryFolder folder;
-  const Workcell workcell =
-      load(folder, replaced(kCell, "FLOOR", "-0.02") + replaced(kBoard, "AT", "-0.14"));
+  const Workcell workcell = load_with_types(
+      folder, replaced(kSimulatedCell, "FLOOR", "-0.02") + replaced(kBoard, "AT", "-0.14"));
   expect_bad_input("cell.yaml:7: board, marker 7", "beyond the face's edge",
                    [&] { (void)simulated_cell(workcell); });
 }
 
 TEST_CASE("a cell in which nothing stands is refused") {
   TemporaryFolder folder;
-  const Workcell empty = load(folder, "work_area: {min_m: [0, 0, 0], max_m: [1, 1, 1]}\n");
+  const Workcell empty =
+      load_with_types(folder, "work_area: {min_m: [0, 0, 0], max_m: [1, 1, 1]}\n");
   expect_bad_input("workcell", "nothing stands", [&] { (void)simulated_cell(empty); });
 }
 
@@ -150,8 +152,9 @@ TEST_CASE("the same seed places the same objects, another seed others") {
 
 TEST_CASE("without a board, random objects lie on the work area's floor") {
   TemporaryFolder folder;
-  Workcell cell = load(folder, replaced(kCell, "FLOOR", "0") +
-                                   "random_objects: {count: 3, types: [cube], upright_share: 1}\n");
+  Workcell cell =
+      load_with_types(folder, replaced(kSimulatedCell, "FLOOR", "0") +
+                                  "random_objects: {count: 3, types: [cube], upright_share: 1}\n");
   cell.known_objects[0].name = "cube 2";
   place_random_objects(cell);
   REQUIRE(cell.known_objects.size() == 4);
@@ -172,11 +175,11 @@ TEST_CASE("random objects without room, or without anything to place") {
   CHECK(none.known_objects.size() == 1);
   none.random_objects = RandomObjects{.count = 1};
   expect_bad_input("random_objects", "no types", [&] { place_random_objects(none); });
-  Workcell aside = load(folder,
-                        "work_area: {min_m: [1, 1, 0], max_m: [2, 2, 1]}\n"
-                        "knowledge_base: types.yaml\n"
-                        "random_objects: {count: 1, types: [cube]}\n" +
-                            replaced(kBoard, "AT", "0"));
+  Workcell aside = load_with_types(folder,
+                                   "work_area: {min_m: [1, 1, 0], max_m: [2, 2, 1]}\n"
+                                   "knowledge_base: types.yaml\n"
+                                   "random_objects: {count: 1, types: [cube]}\n" +
+                                       replaced(kBoard, "AT", "0"));
   expect_bad_input("above the board", "min < max", [&] { place_random_objects(aside); });
 }
 

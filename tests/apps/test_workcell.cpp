@@ -4,6 +4,7 @@
 
 #include <string>
 
+#include "cell_files.hpp"
 #include "documents/schemas.hpp"
 #include "documents/yaml_document.hpp"
 #include "support/expect_error.hpp"
@@ -12,10 +13,6 @@
 namespace vantage::test {
 namespace {
 
-namespace fs = std::filesystem;
-
-const fs::path kShipped = test::assets() / "workcells";
-constexpr std::string_view kArea = "work_area: {min_m: [-1, -2, 0], max_m: [1, 2, 0.5]}\n";
 constexpr std::string_view kStl =
     "solid t\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1000 0 0\nvertex 0 1000 0\n"
     "endloop\nendfacet\nendsolid t\n";
@@ -29,13 +26,13 @@ void expect_text_refused(const std::string& text, std::string_view where,
                          std::initializer_list<std::string_view> parts) {
   CAPTURE(text);
   TemporaryFolder folder;
-  expect_refused([&] { load(folder, std::string(kArea) + text); }, where, parts);
+  expect_refused([&] { load(folder, kAreaLine + text); }, where, parts);
 }
 
 }  // namespace
 
 TEST_CASE("the example has every key of the schema") {
-  const nlohmann::json root = read_yaml(kShipped / "example.yaml").root;
+  const nlohmann::json root = read_yaml(shipped_workcell("example")).root;
   for (const auto& [key, schema] : workcell_schema()["properties"].items()) {
     CAPTURE(key);
     CHECK(root.contains(key));
@@ -43,7 +40,7 @@ TEST_CASE("the example has every key of the schema") {
 }
 
 TEST_CASE("the example's values arrive") {
-  const Workcell cell = load_workcell(kShipped / "example.yaml");
+  const Workcell cell = load_workcell(shipped_workcell("example"));
   CHECK(cell.work_area.max() == Eigen::Vector3d(0.3, 0.3, 0.4));
   CHECK(cell.movable_intrinsics == Intrinsics{640, 480, 525, 525, 319.5, 239.5});
   REQUIRE(std::holds_alternative<HalfSpheres>(cell.candidates));
@@ -74,7 +71,7 @@ TEST_CASE("the example's values arrive") {
 
 TEST_CASE("a work area is enough for a workcell") {
   TemporaryFolder folder;
-  const Workcell cell = load(folder, std::string(kArea));
+  const Workcell cell = load(folder, kAreaLine);
   CHECK(cell.work_area.min() == Eigen::Vector3d(-1, -2, 0));
   CHECK(cell.work_area.max() == Eigen::Vector3d(1, 2, 0.5));
   CHECK(cell.sensor_range == DepthRange{});
@@ -102,7 +99,7 @@ TEST_CASE("a work area is enough for a workcell") {
 TEST_CASE("a workcell's ranges, candidates and reach are read") {
   TemporaryFolder folder;
   const Workcell cell =
-      load(folder, std::string(kArea) +
+      load(folder, kAreaLine +
                        "sensor: {depth_range_m: [0.4, 4]}\n"
                        "movable_camera: {width: 320, height: 240, fx: 300, fy: 301,"
                        " cx: 160, cy: 120, depth_range_m: [0.2, 2]}\n"
@@ -118,14 +115,14 @@ TEST_CASE("a workcell's ranges, candidates and reach are read") {
 
 TEST_CASE("a workcell's volume settings are read, and what is not there keeps its default") {
   TemporaryFolder folder;
-  const Workcell cell = load(folder, std::string(kArea) +
+  const Workcell cell = load(folder, kAreaLine +
                                          "volume:\n"
                                          "  occluders: voxels\n"
                                          "  anti_alias: false\n"
                                          "  band_sigmas: 2.5\n"
                                          "  noise: {focal_px: 640, baseline_m: 0.095}\n");
   CHECK(cell.volume == VolumeOptions{OccluderMode::voxels, false, 2.5, {640, 0.095, 0.08}});
-  CHECK(!load(folder, std::string(kArea) + "volume: {occluders: voxels}\n").volume.anti_alias);
+  CHECK(!load(folder, kAreaLine + "volume: {occluders: voxels}\n").volume.anti_alias);
   expect_text_refused("volume: {occluders: boxes}\n", "volume.occluders", {"boxes", "voxels"});
   expect_text_refused("volume: {band_sigmas: -1}\n", "volume.band_sigmas", {"-1"});
   expect_text_refused("volume: {noise: {baseline_m: 0}}\n", "volume.noise.baseline_m", {"0"});
@@ -136,7 +133,7 @@ TEST_CASE("boxes and meshes become objects at their poses") {
   TemporaryFolder folder;
   folder.write("meshes/arm.stl", kStl);
   const Workcell cell =
-      load(folder, std::string(kArea) +
+      load(folder, kAreaLine +
                        "static_structures:\n"
                        "  - {name: wall, box: {min_m: [0, 0, 0], max_m: [1, 2, 3]}}\n"
                        "  - name: arm\n    mesh: meshes/arm.stl\n    unit_m: 0.001\n"
@@ -229,9 +226,8 @@ TEST_CASE("a name may be there once only") {
 TEST_CASE("a damaged mesh is refused with its own place") {
   TemporaryFolder folder;
   folder.write("a.stl", "solid t\nfacet normal 0 0 1\nouter loop\nvertex 0 0 nan\n");
-  expect_refused(
-      [&] { load(folder, std::string(kArea) + "known_objects: [{name: a, mesh: a.stl}]\n"); }, "",
-      {""});
+  expect_refused([&] { load(folder, kAreaLine + "known_objects: [{name: a, mesh: a.stl}]\n"); }, "",
+                 {""});
 }
 
 }  // namespace vantage::test

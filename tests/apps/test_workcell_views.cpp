@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "cell_files.hpp"
 #include "documents/schemas.hpp"
 #include "support/expect_error.hpp"
 #include "support/test_data.hpp"
@@ -13,13 +14,12 @@
 namespace vantage::test {
 namespace {
 
-constexpr std::string_view kArea = "work_area: {min_m: [-1, -2, 0], max_m: [1, 2, 0.5]}\n";
 constexpr std::string_view kViews =
     R"({"views": [{"eye_m": [1, 0, 1], "target_m": [0, 0, 1]},
  {"T_world_cam": {"rotation": {"w": 0, "x": 1, "y": 0, "z": 0}, "translation_m": [0, 0, 2]}}]})";
 
 Workcell load_cell(const TemporaryFolder& folder, const std::string& text) {
-  return load_workcell(folder.write("cell.yaml", std::string(kArea) + text));
+  return load_workcell(folder.write("cell.yaml", kAreaLine + text));
 }
 
 template <class Kind>

@@ -16,7 +16,7 @@ json value(const std::string& text) {
   return parse_yaml("v: " + text, "t.yaml").root["v"];
 }
 
-void expect_text_refused(std::string_view text, std::string_view where,
+void expect_yaml_refused(std::string_view text, std::string_view where,
                          std::initializer_list<std::string_view> parts) {
   CAPTURE(text.substr(0, 100));
   expect_refused([&] { parse_yaml(text, "t.yaml"); }, where, parts);
@@ -89,26 +89,26 @@ TEST_CASE("aliases are expanded") {
 }
 
 TEST_CASE("syntax errors carry line and column") {
-  expect_text_refused("a: [1, 2\nb: 3\n", "t.yaml:2:2", {"no valid YAML"});
-  expect_text_refused("a: 1\n b: 2\n", "t.yaml:2:3", {"no valid YAML"});
-  expect_text_refused("a: *nowhere\n", "t.yaml:1:4", {"no valid YAML"});
+  expect_yaml_refused("a: [1, 2\nb: 3\n", "t.yaml:2:2", {"no valid YAML"});
+  expect_yaml_refused("a: 1\n b: 2\n", "t.yaml:2:3", {"no valid YAML"});
+  expect_yaml_refused("a: *nowhere\n", "t.yaml:1:4", {"no valid YAML"});
 }
 
 TEST_CASE("a key that is there twice is refused with both lines") {
-  expect_text_refused("a: 1\nb: 2\na: 3\n", "t.yaml:3", {"\"a\"", "twice", "line 1"});
-  expect_text_refused("x:\n  a: 1\n  'a': 2\n", "t.yaml:3", {"\"a\"", "line 2"});
+  expect_yaml_refused("a: 1\nb: 2\na: 3\n", "t.yaml:3", {"\"a\"", "twice", "line 1"});
+  expect_yaml_refused("x:\n  a: 1\n  'a': 2\n", "t.yaml:3", {"\"a\"", "line 2"});
 }
 
 TEST_CASE("keys that are no words, tags and numbers out of range are refused") {
-  expect_text_refused("a: 1\n? [x, y]\n: 2\n", "t.yaml:2", {"key"});
-  expect_text_refused("a: !point [1, 2]\n", "t.yaml:1", {"!point"});
-  expect_text_refused("a: !!python/object {}\n", "t.yaml:1", {"python/object"});
-  expect_text_refused("\na: 1e999\n", "t.yaml:2", {"1e999", "out of range"});
-  expect_text_refused("a: 0xffffffffffffffffff\n", "t.yaml:1", {"out of range"});
+  expect_yaml_refused("a: 1\n? [x, y]\n: 2\n", "t.yaml:2", {"key"});
+  expect_yaml_refused("a: !point [1, 2]\n", "t.yaml:1", {"!point"});
+  expect_yaml_refused("a: !!python/object {}\n", "t.yaml:1", {"python/object"});
+  expect_yaml_refused("\na: 1e999\n", "t.yaml:2", {"1e999", "out of range"});
+  expect_yaml_refused("a: 0xffffffffffffffffff\n", "t.yaml:1", {"out of range"});
 }
 
 TEST_CASE("nesting without end and alias bombs are refused") {
-  expect_text_refused("a: " + std::string(65, '[') + std::string(65, ']'), "t.yaml:1", {"64"});
+  expect_yaml_refused("a: " + std::string(65, '[') + std::string(65, ']'), "t.yaml:1", {"64"});
   CHECK_NOTHROW(parse_yaml(std::string(64, '[') + std::string(64, ']'), "t.yaml"));
   // yaml-cpp has a limit of its own; what counts is that the stack survives.
   CHECK_THROWS_AS(parse_yaml(std::string(1'000'000, '['), "t.yaml"), Error);
@@ -117,20 +117,20 @@ TEST_CASE("nesting without end and alias bombs are refused") {
   for (int i = 0; i < 2000; ++i) steps += std::string(std::size_t(i), ' ') + "a:\n";
   CHECK_THROWS_AS(parse_yaml(steps, "t.yaml"), Error);
 
-  expect_text_refused("a: &a [*a]\n", "t.yaml:1", {"64"});
+  expect_yaml_refused("a: &a [*a]\n", "t.yaml:1", {"64"});
   std::string bomb = "x0: &x0 [1, 1, 1, 1, 1, 1, 1, 1, 1, 1]\n";
   for (int i = 1; i < 12; ++i) {
     const std::string alias = std::string("*x").append(std::to_string(i - 1)).append(", ");
     bomb.append("x").append(std::to_string(i)).append(": &x").append(std::to_string(i));
     bomb.append(" [" + alias + alias + alias + alias + alias + alias + alias + "0]\n");
   }
-  expect_text_refused(bomb, "t.yaml:1", {"100000", "aliases"});
+  expect_yaml_refused(bomb, "t.yaml:1", {"100000", "aliases"});
 }
 
 TEST_CASE("no document and many are refused") {
-  expect_text_refused("", "t.yaml", {"empty"});
-  expect_text_refused("# only a comment\n", "t.yaml", {"empty"});
-  expect_text_refused("a: 1\n---\nb: 2\n", "t.yaml:3", {"2 documents", "expected one"});
+  expect_yaml_refused("", "t.yaml", {"empty"});
+  expect_yaml_refused("# only a comment\n", "t.yaml", {"empty"});
+  expect_yaml_refused("a: 1\n---\nb: 2\n", "t.yaml:3", {"2 documents", "expected one"});
 }
 
 TEST_CASE("YAML files are read, unless they are missing or too large") {

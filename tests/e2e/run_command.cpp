@@ -1,5 +1,6 @@
 #include "run_command.hpp"
 
+#include <doctest/doctest.h>
 #include <sys/wait.h>
 
 #include <cstdlib>
@@ -36,12 +37,19 @@ void write_scene_camera(const fs::path& scene, const nlohmann::json& entry) {
   std::fclose(file);
 }
 
-std::filesystem::path workcells() {
-  return assets() / "workcells";
-}
-
 std::string quoted(const std::filesystem::path& path) {
   return " '" + path.string() + "'";
+}
+
+std::string quoted_workcell(const std::string& name, const std::string& rest) {
+  return quoted(assets() / "workcells" / (name + ".yaml" + rest));
+}
+
+void make_dataset(const std::string& workcell, const fs::path& folder, const std::string& options) {
+  const CommandResult result = run_vantage("simulate" + quoted_workcell(workcell) + " -o" +
+                                           quoted(folder) + " --samples 4 " + options);
+  CAPTURE(result.err);
+  REQUIRE(result.exit_code == 0);
 }
 
 fs::path write_scene(const TemporaryFolder& folder) {

@@ -19,11 +19,15 @@ struct CommandResult {
 /// "timeout -s INT 1".
 CommandResult run_vantage(const std::string& arguments, const std::string& prefix = "");
 
-/// The shipped workcells.
-std::filesystem::path workcells();
-
 /// A path as an argument of `run_vantage`, with a blank before it.
 std::string quoted(const std::filesystem::path& path);
+
+/// A shipped workcell as such an argument, with `rest` after the file's name, e.g. ":front".
+std::string quoted_workcell(const std::string& name, const std::string& rest = "");
+
+/// Simulates a shipped workcell, with few samples, into `folder`; fails the test if that fails.
+void make_dataset(const std::string& workcell, const std::filesystem::path& folder,
+                  const std::string& options = "");
 
 /// A BOP scene with one depth image of a box before a wall, written into `folder`/scene. What is
 /// wrong with it is up to the test.

@@ -11,12 +11,9 @@ namespace {
 
 using nlohmann::json;
 using test::quoted;
+using test::quoted_workcell;
 using test::run_vantage;
 namespace fs = std::filesystem;
-
-std::string scene(const char* cell, const char* rest) {
-  return test::quoted((test::workcells() / (std::string(cell) + ".yaml")).string() + rest);
-}
 
 const json& of_method(const json& list, const std::string& method) {
   for (const json& one : list) {
@@ -30,10 +27,11 @@ const json& of_method(const json& list, const std::string& method) {
 
 TEST_CASE("evaluate planning: tables, planning.json, charts and a page") {
   const test::TemporaryFolder folder;
-  const auto result = run_vantage(
-      "evaluate planning" + scene("wall", ":front") + scene("foreign_objects", "+ideal") +
-      " --candidates production --methods shadowD6 --servo 2 --voxel-size 0.02 -o" +
-      quoted(folder / "out"));
+  const auto result =
+      run_vantage("evaluate planning" + quoted_workcell("wall", ":front") +
+                  quoted_workcell("foreign_objects", "+ideal") +
+                  " --candidates production --methods shadowD6 --servo 2 --voxel-size 0.02 -o" +
+                  quoted(folder / "out"));
   CAPTURE(result.err);
   REQUIRE(result.exit_code == 0);
   for (const char* part :
@@ -65,7 +63,7 @@ TEST_CASE("evaluate planning: tables, planning.json, charts and a page") {
 }
 
 TEST_CASE("evaluate planning: but for the times, the same bytes at any number of threads") {
-  const std::string command = "evaluate planning" + scene("corridor", ":left,right") +
+  const std::string command = "evaluate planning" + quoted_workcell("corridor", ":left,right") +
                               " --candidates production --servo 1 --voxel-size 0.02 --json";
   json one = run_vantage(command + " --threads 1").json();
   json three = run_vantage(command + " --threads 3 --repeat 2").json();
@@ -88,20 +86,20 @@ TEST_CASE("evaluate planning refuses what it cannot evaluate, and writes nothing
     CHECK_FALSE(fs::exists(folder / "out"));
   };
   refused("", 2, "scenes");
-  refused(scene("wall", ":back"), 3, "it has no camera \"back\"");
-  refused(scene("wall", "") + scene("nowhere", ""), 3, "nowhere.yaml");
-  refused(scene("wall", "") + " --methods magic", 3, "found 'magic'");
-  refused(scene("wall", "") + " --candidates some", 2, "some");
-  refused(scene("wall", "") + " --depth deep", 2, "deep");
-  refused(scene("wall", "+deep"), 3, "found \"deep\"");
-  refused(scene("wall", "") + " --servo 101", 2, "--servo");
+  refused(quoted_workcell("wall", ":back"), 3, "it has no camera \"back\"");
+  refused(quoted_workcell("wall") + quoted_workcell("nowhere"), 3, "nowhere.yaml");
+  refused(quoted_workcell("wall") + " --methods magic", 3, "found 'magic'");
+  refused(quoted_workcell("wall") + " --candidates some", 2, "some");
+  refused(quoted_workcell("wall") + " --depth deep", 2, "deep");
+  refused(quoted_workcell("wall", "+deep"), 3, "found \"deep\"");
+  refused(quoted_workcell("wall") + " --servo 101", 2, "--servo");
 }
 
 TEST_CASE("Ctrl-C ends an evaluation of planning with 130, and writes nothing") {
   const test::TemporaryFolder folder;
-  const auto result = run_vantage(
-      "evaluate planning" + scene("wall", ":front") + " --repeat 1000 -o" + quoted(folder / "out"),
-      "timeout --foreground --preserve-status -s INT 2");
+  const auto result = run_vantage("evaluate planning" + quoted_workcell("wall", ":front") +
+                                      " --repeat 1000 -o" + quoted(folder / "out"),
+                                  "timeout --foreground --preserve-status -s INT 2");
   CHECK(result.exit_code == 130);
   CHECK(result.out.empty());
   CHECK_FALSE(fs::exists(folder / "out"));

@@ -13,17 +13,10 @@ namespace vantage {
 namespace {
 
 using nlohmann::json;
+using test::make_dataset;
 using test::quoted;
 using test::run_vantage;
 namespace fs = std::filesystem;
-
-void simulate(const char* cell, const fs::path& folder) {
-  const auto result =
-      run_vantage("simulate" + quoted(test::workcells() / (std::string(cell) + ".yaml")) + " -o" +
-                  quoted(folder) + " --samples 4");
-  CAPTURE(result.err);
-  REQUIRE(result.exit_code == 0);
-}
 
 test::CommandResult evaluate(const fs::path& data, const std::string& options,
                              const std::string& prefix = "") {
@@ -62,7 +55,7 @@ const json& method(const json& report, const std::string& name) {
 TEST_CASE("castle: errors are as NumPy computes them from the files, and fall with more cameras") {
   const test::TemporaryFolder folder;
   const fs::path data = folder / "data";
-  simulate("castle", data);
+  make_dataset("castle", data);
   const auto result = evaluate(data, "--cameras board --json -o" + quoted(folder / "out"));
   CAPTURE(result.err);
   REQUIRE(result.exit_code == 0);
@@ -91,7 +84,7 @@ TEST_CASE("castle: errors are as NumPy computes them from the files, and fall wi
 TEST_CASE("clutter: several instances of a type, and errors as NumPy computes them") {
   const test::TemporaryFolder folder;
   const fs::path data = folder / "data";
-  simulate("clutter", data);
+  make_dataset("clutter", data);
   const auto result = evaluate(data, "--sizes 1- --json -o" + quoted(folder / "out"));
   CAPTURE(result.err);
   REQUIRE(result.exit_code == 0);
@@ -108,7 +101,7 @@ TEST_CASE("clutter: several instances of a type, and errors as NumPy computes th
 TEST_CASE("the same bytes at any number of threads, others with another seed") {
   const test::TemporaryFolder folder;
   const fs::path data = folder / "data";
-  simulate("castle", data);
+  make_dataset("castle", data);
   const std::string options =
       "--images 0,4,8 --noise-px 0.3 --drop 0.2 --wrong-ids 0.05 --trials 3 --json --threads ";
   const auto one = evaluate(data, options + "1"), three = evaluate(data, options + "3");
@@ -123,7 +116,7 @@ TEST_CASE("the same bytes at any number of threads, others with another seed") {
 TEST_CASE("a dataset with BOP's models and truth needs no simulated cell") {
   const test::TemporaryFolder folder;
   const fs::path data = folder / "data";
-  simulate("castle", data);
+  make_dataset("castle", data);
   const fs::path cell =
       folder.write("cell.yaml",
                    "work_area: {min_m: [-0.25, -0.175, 0], max_m: [0.25, 0.175, 0.2]}\n"
@@ -151,7 +144,7 @@ TEST_CASE("a dataset with BOP's models and truth needs no simulated cell") {
 TEST_CASE("what cannot be evaluated is refused with the reason") {
   const test::TemporaryFolder folder;
   const fs::path data = folder / "data";
-  simulate("castle", data);
+  make_dataset("castle", data);
   const auto refused = [&](const std::string& options, int exit_code, const char* reason) {
     CAPTURE(options);
     const auto result = evaluate(data, options);
@@ -180,7 +173,7 @@ TEST_CASE("what cannot be evaluated is refused with the reason") {
 TEST_CASE("Ctrl-C ends an evaluation with 130, and writes nothing") {
   const test::TemporaryFolder folder;
   const fs::path data = folder / "data";
-  simulate("castle", data);
+  make_dataset("castle", data);
   const auto result = evaluate(data, "--trials 1000 --drop 0.1 -o" + quoted(folder / "out"),
                                "timeout --foreground --preserve-status -s INT 3");
   CHECK(result.exit_code == 130);

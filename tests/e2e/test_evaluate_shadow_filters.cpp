@@ -8,17 +8,14 @@ namespace vantage {
 namespace {
 
 using nlohmann::json;
+using test::quoted_workcell;
 using test::run_vantage;
-
-std::string scene(const char* cell, const char* rest) {
-  return test::quoted((test::workcells() / (std::string(cell) + ".yaml")).string() + rest);
-}
 
 }  // namespace
 
 TEST_CASE("evaluate shadow-filters: the default offset with an opening beats no filter") {
-  const std::string command = "evaluate shadow-filters" + scene("wall", ":side") +
-                              scene("corridor", ":left,right") +
+  const std::string command = "evaluate shadow-filters" + quoted_workcell("wall", ":side") +
+                              quoted_workcell("corridor", ":left,right") +
                               " --offsets 0,3 --openings 0,2 --least-cm3 0";
   const auto text = run_vantage(command);
   CAPTURE(text.err);
@@ -46,9 +43,10 @@ TEST_CASE("evaluate shadow-filters: the default offset with an opening beats no 
 }
 
 TEST_CASE("evaluate shadow-filters: depth without noise leaves little false shadow") {
-  const json ideal = run_vantage("evaluate shadow-filters" + scene("two_pillars", "+ideal") +
-                                 " --offsets 0 --openings 0 --least-cm3 0 --step 1 --json")
-                         .json();
+  const json ideal =
+      run_vantage("evaluate shadow-filters" + quoted_workcell("two_pillars", "+ideal") +
+                  " --offsets 0 --openings 0 --least-cm3 0 --step 1 --json")
+          .json();
   const json& score = ideal["scenes"][0]["filters"][0];
   CHECK(score["recall"].get<double>() > 0.999);
   CHECK(score["precision"].get<double>() > 0.999);
@@ -64,12 +62,12 @@ TEST_CASE("evaluate shadow-filters refuses what it cannot evaluate") {
     CHECK(result.out.empty());
   };
   refused("", 2, "scenes");
-  refused(scene("wall", "+none"), 3, "has no depth image");
-  refused(scene("wall", ":back"), 3, "it has no camera \"back\"");
-  refused(scene("wall", "") + " --offsets -1", 2, "--offsets");
-  refused(scene("wall", "") + " --openings 65", 2, "--openings");
-  refused(scene("wall", "") + " --step 0", 2, "--step");
-  refused(scene("wall", "") + " --holes ignore", 2, "--holes");
+  refused(quoted_workcell("wall", "+none"), 3, "has no depth image");
+  refused(quoted_workcell("wall", ":back"), 3, "it has no camera \"back\"");
+  refused(quoted_workcell("wall") + " --offsets -1", 2, "--offsets");
+  refused(quoted_workcell("wall") + " --openings 65", 2, "--openings");
+  refused(quoted_workcell("wall") + " --step 0", 2, "--step");
+  refused(quoted_workcell("wall") + " --holes ignore", 2, "--holes");
 }
 
 }  // namespace vantage

@@ -11,17 +11,10 @@ namespace vantage {
 namespace {
 
 using nlohmann::json;
+using test::make_dataset;
 using test::quoted;
 using test::run_vantage;
 namespace fs = std::filesystem;
-
-void simulate(const char* cell, const fs::path& folder, const std::string& options = "") {
-  const auto result =
-      run_vantage("simulate" + quoted(test::workcells() / (std::string(cell) + ".yaml")) + " -o" +
-                  quoted(folder) + " --samples 4 " + options);
-  CAPTURE(result.err);
-  REQUIRE(result.exit_code == 0);
-}
 
 test::CommandResult reconstruct(const fs::path& data, const std::string& options) {
   return run_vantage("reconstruct" + quoted(data) + " --workcell" + quoted(data / "workcell.yaml") +
@@ -63,7 +56,7 @@ double worst_offset_mm(const json& world, const fs::path& data) {
 TEST_CASE("a simulated cell is reconstructed by every method, its cameras found by the board") {
   const test::TemporaryFolder folder;
   const fs::path data = folder / "castle";
-  simulate("castle", data, "--ideal-depth --distortion -0.1 0.03 0.001 -0.0005 0");
+  make_dataset("castle", data, "--ideal-depth --distortion -0.1 0.03 0.001 -0.0005 0");
   forget_cameras(data);
   for (const char* method : {"svd", "pnp", "voting"}) {
     CAPTURE(method);
@@ -81,7 +74,7 @@ TEST_CASE("a simulated cell is reconstructed by every method, its cameras found 
 TEST_CASE("a plan takes the world that was reconstructed, or reconstructs it itself") {
   const test::TemporaryFolder folder;
   const fs::path data = folder / "wall", out = folder / "out";
-  simulate("wall", data);
+  make_dataset("wall", data);
   const auto found = reconstruct(data, "-o" + quoted(out));
   CAPTURE(found.err);
   REQUIRE(found.exit_code == 0);
@@ -106,7 +99,7 @@ TEST_CASE("a printed board on photographs: one half is found where the other hal
   const auto folder = test::recording("charuco");
   if (!folder) return;
   const auto result = run_vantage("reconstruct" + quoted(*folder) + " --workcell" +
-                                  quoted(test::workcells() / "charuco.yaml") + " --calibration" +
+                                  test::quoted_workcell("charuco") + " --calibration" +
                                   quoted(*folder / "camera.yml") + " --json");
   CAPTURE(result.err);
   REQUIRE(result.exit_code == 0);
@@ -132,7 +125,7 @@ TEST_CASE("a printed board on photographs: one half is found where the other hal
 TEST_CASE("features come from other detectors, too") {
   const test::TemporaryFolder folder;
   const fs::path data = folder / "wall";
-  simulate("wall", data);
+  make_dataset("wall", data);
   // A detector that has the whole pose: the knowledge base's models, read as BOP has them.
   const json truth = json::parse(test::read_text(data / "scene_gt.json"));
   std::string lines;
@@ -173,7 +166,7 @@ TEST_CASE("features come from other detectors, too") {
 TEST_CASE("reconstruct says what is missing, with exit code 3") {
   const test::TemporaryFolder folder;
   const fs::path data = folder / "wall";
-  simulate("wall", data);
+  make_dataset("wall", data);
   const auto refused = [&](const std::string& arguments, const char* part) {
     const auto result = run_vantage("reconstruct" + quoted(data) + arguments);
     CAPTURE(arguments);

@@ -27,8 +27,8 @@ std::map<std::string, std::string> files_of(const fs::path& folder) {
 
 test::CommandResult simulate(const char* cell, const fs::path& folder,
                              const std::string& options = "") {
-  return run_vantage("simulate" + quoted(test::workcells() / (std::string(cell) + ".yaml")) +
-                     " -o" + quoted(folder) + " --samples 1 " + options);
+  return run_vantage("simulate" + test::quoted_workcell(cell) + " -o" + quoted(folder) +
+                     " --samples 1 " + options);
 }
 
 }  // namespace
@@ -166,11 +166,11 @@ TEST_CASE("what cannot be simulated is refused with the reason, and leaves nothi
 
 TEST_CASE("vantage render draws one camera's view, and contact sheets as PNG and JPEG") {
   const test::TemporaryFolder folder;
-  const std::string duck = quoted(test::workcells() / "duck.yaml");
+  const std::string duck = test::quoted_workcell("duck");
   const fs::path single = folder / "view.png", sheet = folder / "sheet.jpg";
   REQUIRE(run_vantage("render" + duck + " --samples 1 -o" + quoted(single)).exit_code == 0);
   CHECK(read_color(single).width == 640);
-  REQUIRE(run_vantage("render" + duck + quoted(test::workcells() / "wall.yaml") +
+  REQUIRE(run_vantage("render" + duck + test::quoted_workcell("wall") +
                       " --contact-sheet --samples 1 -o" + quoted(sheet))
               .exit_code == 0);
   CHECK(read_color(sheet).width > 600);

@@ -1,10 +1,10 @@
 #pragma once
 
 #include <memory>
-#include <numbers>
 #include <string>
 
 #include "evaluation/true_object.hpp"
+#include "turns.hpp"
 #include "vantage/raycore/solids.hpp"
 #include "vantage/reconstruction/observation.hpp"
 #include "vantage/reconstruction/reconstruct.hpp"
@@ -20,15 +20,6 @@ inline TypePtr cube_type(const std::string& name, Symmetries symmetries = {}) {
       {{-0.02, 0.02, 0.025}, {0.02, 0.02, 0.025}, {0.02, -0.02, 0.025}, {-0.02, -0.02, 0.025}}};
   type.features = {{{"mark", name}, top}};
   return std::make_shared<const ObjectType>(std::move(type));
-}
-
-inline Symmetries quarter_turns() {
-  Symmetries symmetries;
-  for (int i = 1; i < 4; ++i) {
-    const Eigen::AngleAxisd turn(i * std::numbers::pi / 2, Eigen::Vector3d::UnitZ());
-    symmetries.discrete.push_back(Pose::from_rotation(turn.toRotationMatrix(), {0, 0, 0}));
-  }
-  return symmetries;
 }
 
 /// A camera above that sees the marks of these objects where they are.

@@ -11,16 +11,16 @@
 namespace vantage {
 namespace {
 
-constexpr Intrinsics kCamera{160, 120, 150, 150, 79.5, 59.5};
+constexpr Intrinsics kCubesCamera{160, 120, 150, 150, 79.5, 59.5};
 
 /// Two cubes on a table, and two cameras above that measure depth.
-struct TwoCubes {
+struct MeasuredCubes {
   std::vector<TrueObject> truth{
       {"red", test::cube_type("red"), Pose::from_translation({-0.05, 0, 0.025})},
       {"blue", test::cube_type("blue"), Pose::from_translation({0.05, 0, 0.025})}};
   std::vector<ScoredImage> images;
 
-  TwoCubes() {
+  MeasuredCubes() {
     SceneBuilder builder;
     builder.add_box(Box({-1, -1, -0.1}, {1, 1, 0}));
     for (const TrueObject& object : truth) {
@@ -28,8 +28,8 @@ struct TwoCubes {
     }
     const auto scene = builder.build();
     for (const Eigen::Vector3d& eye : {Eigen::Vector3d(0.1, -0.2, 0.5), {-0.2, 0.2, 0.4}}) {
-      const PinholeCamera camera(kCamera, Pose::looking_at(eye, {0, 0, 0.02}));
-      images.push_back({kCamera, camera.T_world_cam(),
+      const PinholeCamera camera(kCubesCamera, Pose::looking_at(eye, {0, 0, 0.02}));
+      images.push_back({kCubesCamera, camera.T_world_cam(),
                         std::make_shared<const DepthImage>(scene->render_depth(camera))});
     }
   }
@@ -47,7 +47,7 @@ struct TwoCubes {
 }  // namespace
 
 TEST_CASE("the truth has full marks") {
-  const TwoCubes scene;
+  const MeasuredCubes scene;
   const auto scores = bop_scores(Judge(scene.truth), scene.shifted({0, 0, 0}), scene.images);
   REQUIRE(scores);
   CHECK(scores->targets == 4);
@@ -55,7 +55,7 @@ TEST_CASE("the truth has full marks") {
 }
 
 TEST_CASE("a shift costs the thresholds that lie below it") {
-  const TwoCubes scene;
+  const MeasuredCubes scene;
   const double diameter = 0.05 * std::sqrt(3.0);
   const auto scores =
       bop_scores(Judge(scene.truth), scene.shifted({0, 0, 0.17 * diameter}), scene.images);
@@ -67,7 +67,7 @@ TEST_CASE("a shift costs the thresholds that lie below it") {
 }
 
 TEST_CASE("MSPD's thresholds are pixels of an image that is 640 wide") {
-  TwoCubes scene;
+  MeasuredCubes scene;
   scene.images.resize(1);
   scene.images[0].T_world_cam = Pose::looking_at({0, 0, 0.55}, {0, 0, 0});  // 0.5 m above them
   scene.images[0].depth = nullptr;
@@ -80,7 +80,7 @@ TEST_CASE("MSPD's thresholds are pixels of an image that is 640 wide") {
 }
 
 TEST_CASE("each estimate's errors are those of its object") {
-  const TwoCubes scene;
+  const MeasuredCubes scene;
   Reconstruction swapped = scene.shifted({0, 0, 0.002});
   std::swap(swapped.objects[0], swapped.objects[1]);
   const auto errors = estimate_errors(Judge(scene.truth), swapped);
@@ -96,7 +96,7 @@ TEST_CASE("each estimate's errors are those of its object") {
 }
 
 TEST_CASE("hidden objects are no targets, and finding them does neither good nor harm") {
-  TwoCubes scene;
+  MeasuredCubes scene;
   for (ScoredImage& image : scene.images) {  // a wall at 10 cm
     image.depth = std::make_shared<const DepthImage>(160, 120, std::vector<float>(160 * 120, 0.1f));
   }
@@ -104,7 +104,7 @@ TEST_CASE("hidden objects are no targets, and finding them does neither good nor
 }
 
 TEST_CASE("what is not found is missing from every recall") {
-  const TwoCubes scene;
+  const MeasuredCubes scene;
   Reconstruction one = scene.shifted({0, 0, 0});
   one.objects.pop_back();
   const auto scores = bop_scores(Judge(scene.truth), one, scene.images);
@@ -116,7 +116,7 @@ TEST_CASE("what is not found is missing from every recall") {
 }
 
 TEST_CASE("scores are the same at any number of threads") {
-  const TwoCubes scene;
+  const MeasuredCubes scene;
   const Judge judge(scene.truth);
   const Reconstruction off = scene.shifted({0.004, -0.003, 0.01});
   std::vector<BopScores> all;

@@ -7,14 +7,13 @@
 #include "reference/plain_pose_errors.hpp"
 #include "reference/random_scene.hpp"
 #include "support/expect_error.hpp"
+#include "turns.hpp"
 #include "vantage/raycore/solids.hpp"
 
 namespace vantage {
 namespace {
 
-Pose turn(double angle, const Eigen::Vector3d& axis, const Eigen::Vector3d& shift = {0, 0, 0}) {
-  return Pose::from_rotation(Eigen::AngleAxisd(angle, axis).toRotationMatrix(), shift);
-}
+using test::turn;
 
 bool same(const Pose& a, const Pose& b) {
   return (test::matrix_of(a) - test::matrix_of(b)).norm() < 1e-9;

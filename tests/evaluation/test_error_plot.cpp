@@ -5,16 +5,13 @@
 #include <cmath>
 #include <set>
 
+#include "count_parts.hpp"
 #include "evaluation/plot_axis.hpp"
 
 namespace vantage {
 namespace {
 
-std::size_t count(const std::string& text, const std::string& part) {
-  std::size_t found = 0;
-  for (auto at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++found;
-  return found;
-}
+using test::count;
 
 std::vector<PlotPanel> one_panel(const std::vector<PlotPoint>& points) {
   return {{"Error", "mm", {{"first", points}, {"second", points}}}};

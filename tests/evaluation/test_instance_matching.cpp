@@ -2,12 +2,10 @@
 
 #include <doctest/doctest.h>
 
-#include <limits>
+#include "support/non_finite.hpp"
 
 namespace vantage {
 namespace {
-
-constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
 using Matches = std::vector<std::optional<Match>>;
 
@@ -32,11 +30,11 @@ TEST_CASE("the higher score chooses first, even if another one would fit better"
 }
 
 TEST_CASE("an error at the threshold is too large, and other types are never matched") {
-  const Eigen::MatrixXd errors{{0.5, kInfinite}, {kInfinite, 0.4}};
+  const Eigen::MatrixXd errors{{0.5, test::kInfinity}, {test::kInfinity, 0.4}};
   const Matches matches = match_instances(errors, std::vector{1.0, 1.0}, 0.5);
   CHECK_FALSE(matches[0]);
   CHECK(matched(matches[1], 1, 0.4));
-  const Matches all = match_instances(errors, std::vector{1.0, 1.0}, kInfinite);
+  const Matches all = match_instances(errors, std::vector{1.0, 1.0}, test::kInfinity);
   CHECK(matched(all[0], 0, 0.5));
 }
 

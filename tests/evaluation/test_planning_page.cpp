@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include "count_parts.hpp"
 #include "evaluation/planning_numbers.hpp"
 #include "evaluation/planning_tables.hpp"
 #include "planning_examples.hpp"
@@ -9,16 +10,11 @@
 namespace vantage {
 namespace {
 
+using test::count;
 using test::two_scenes;
 
 bool has(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
-}
-
-std::size_t count(const std::string& text, const std::string& part) {
-  std::size_t found = 0;
-  for (auto at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++found;
-  return found;
 }
 
 using Cells = std::vector<std::string>;

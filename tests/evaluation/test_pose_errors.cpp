@@ -9,24 +9,16 @@
 #include "reference/plain_pose_errors.hpp"
 #include "reference/random_scene.hpp"
 #include "support/scene_count.hpp"
+#include "turns.hpp"
 #include "vantage/raycore/solids.hpp"
 
 namespace vantage {
 namespace {
 
+using test::quarter_turns;
+using test::turn;
+
 constexpr Intrinsics kCamera{640, 480, 600, 610, 320, 240};
-
-Pose turn(double angle, const Eigen::Vector3d& axis, const Eigen::Vector3d& shift = {0, 0, 0}) {
-  return Pose::from_rotation(Eigen::AngleAxisd(angle, axis).toRotationMatrix(), shift);
-}
-
-Symmetries quarter_turns() {
-  Symmetries symmetries;
-  for (int i = 1; i < 4; ++i) {
-    symmetries.discrete.push_back(turn(i * std::numbers::pi / 2, Eigen::Vector3d::UnitZ()));
-  }
-  return symmetries;
-}
 
 Eigen::Matrix3d matrix_of(const Intrinsics& k) {
   return Eigen::Matrix3d{{k.fx, 0, k.cx}, {0, k.fy, k.cy}, {0, 0, 1}};

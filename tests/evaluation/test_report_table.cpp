@@ -2,8 +2,12 @@
 
 #include <doctest/doctest.h>
 
+#include "count_parts.hpp"
+
 namespace vantage {
 namespace {
+
+using test::count;
 
 ReportTable small_table() {
   ReportTable table{"Title", {{"name", "", true}, {"m³", "ours"}, {"s", "ours"}, {"s", "thesis"}}};
@@ -12,12 +16,6 @@ ReportTable small_table() {
   table.rows.push_back({{"größer", "–", "10", ""}, RowKind::emphasis});
   table.note = "Read it so.";
   return table;
-}
-
-std::size_t count(const std::string& text, const std::string& part) {
-  std::size_t found = 0;
-  for (auto at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++found;
-  return found;
 }
 
 }  // namespace

@@ -5,17 +5,14 @@
 #include <cmath>
 #include <random>
 
+#include "count_parts.hpp"
 #include "evaluation/mark_stacks.hpp"
 #include "evaluation/plot_axis.hpp"
 
 namespace vantage {
 namespace {
 
-std::size_t count(const std::string& text, const std::string& part) {
-  std::size_t found = 0;
-  for (auto at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++found;
-  return found;
-}
+using test::count;
 
 }  // namespace
 

@@ -13,7 +13,7 @@
 namespace vantage {
 namespace {
 
-constexpr Intrinsics kCamera{64, 48, 60, 60, 31.5, 23.5};
+constexpr Intrinsics kSmallCamera{64, 48, 60, 60, 31.5, 23.5};
 
 DepthImage flat(float metres) {
   return DepthImage(64, 48, std::vector<float>(64 * 48, metres));
@@ -21,8 +21,8 @@ DepthImage flat(float metres) {
 
 std::vector<double> vsd_of(const TriangleMesh& mesh, const Pose& estimate, const Pose& truth,
                            const DepthImage& scene, double diameter_m) {
-  return vsd(view_of(mesh, estimate, kCamera), view_of(mesh, truth, kCamera), scene, kCamera,
-             diameter_m);
+  return vsd(view_of(mesh, estimate, kSmallCamera), view_of(mesh, truth, kSmallCamera), scene,
+             kSmallCamera, diameter_m);
 }
 
 }  // namespace
@@ -58,13 +58,13 @@ TEST_CASE("an object beside its place shares nothing with it") {
 
 TEST_CASE("what stands before an object hides it, and 15 mm do not") {
   const TriangleMesh box = box_solid({0.2, 0.2, 0.1});
-  const ObjectView view = view_of(box, Pose::from_translation({0, 0, 1.05}), kCamera);
-  CHECK(visible_fraction(view, flat(0.5), kCamera, 0.015) == 0);
-  CHECK(visible_fraction(view, flat(0.99f), kCamera, 0.015) == 1);
-  CHECK(visible_fraction(view, flat(2), kCamera, 0.015) == 1);
-  CHECK(visible_fraction(view, flat(0), kCamera, 0.015) == 1);  // unknown depth hides nothing
-  const ObjectView outside = view_of(box, Pose::from_translation({9, 0, 1}), kCamera);
-  CHECK(visible_fraction(outside, flat(2), kCamera, 0.015) == 0);
+  const ObjectView view = view_of(box, Pose::from_translation({0, 0, 1.05}), kSmallCamera);
+  CHECK(visible_fraction(view, flat(0.5), kSmallCamera, 0.015) == 0);
+  CHECK(visible_fraction(view, flat(0.99f), kSmallCamera, 0.015) == 1);
+  CHECK(visible_fraction(view, flat(2), kSmallCamera, 0.015) == 1);
+  CHECK(visible_fraction(view, flat(0), kSmallCamera, 0.015) == 1);  // unknown depth hides nothing
+  const ObjectView outside = view_of(box, Pose::from_translation({9, 0, 1}), kSmallCamera);
+  CHECK(visible_fraction(outside, flat(2), kSmallCamera, 0.015) == 0);
   const Pose truth = Pose::from_translation({0, 0, 1.05});
   for (const double error : vsd_of(box, truth, truth, flat(0.5), 0.3)) CHECK(error == 1);
 }
@@ -83,8 +83,8 @@ TEST_CASE("VSD is the slow twin's") {
     }
     const auto errors = vsd_of(mesh, estimate, truth, DepthImage(64, 48, depth), 0.44);
     for (std::size_t i = 0; i < errors.size(); ++i) {
-      const double plain =
-          test::plain_vsd(mesh, estimate, truth, depth, kCamera, 0.44, 0.015, bop_thresholds()[i]);
+      const double plain = test::plain_vsd(mesh, estimate, truth, depth, kSmallCamera, 0.44, 0.015,
+                                           bop_thresholds()[i]);
       // A pixel at the silhouette or at a threshold may fall to either side, in float or double.
       CHECK(std::abs(errors[i] - plain) < 0.02);
     }
@@ -92,9 +92,10 @@ TEST_CASE("VSD is the slow twin's") {
 }
 
 TEST_CASE("a scene's depth has to be of the camera's size") {
-  const ObjectView view = view_of(box_solid({1, 1, 1}), Pose::from_translation({0, 0, 3}), kCamera);
+  const ObjectView view =
+      view_of(box_solid({1, 1, 1}), Pose::from_translation({0, 0, 3}), kSmallCamera);
   test::expect_bad_input("scene depth", "it has 2 x 3 pixels; expected 64 x 48",
-                         [&] { vsd(view, view, DepthImage(2, 3), kCamera, 1); });
+                         [&] { vsd(view, view, DepthImage(2, 3), kSmallCamera, 1); });
 }
 
 }  // namespace vantage

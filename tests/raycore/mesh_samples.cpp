@@ -8,9 +8,10 @@
 namespace vantage::test {
 namespace {
 
-constexpr std::array<std::array<int, 3>, 4> kCorners = {
+constexpr std::array<std::array<int, 3>, 4> kSampleCorners = {
     {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
-constexpr std::array<std::array<int, 3>, 4> kFaces = {{{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}}};
+constexpr std::array<std::array<int, 3>, 4> kSampleFaces = {
+    {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}}};
 
 std::string words(const std::array<int, 3>& values) {
   return std::to_string(values[0]) + " " + std::to_string(values[1]) + " " +
@@ -19,17 +20,17 @@ std::string words(const std::array<int, 3>& values) {
 
 std::string ply_body_ascii() {
   std::string text;
-  for (const auto& p : kCorners) text += words(p) + " 7\n";
-  for (const auto& face : kFaces) text += "2 0.5 0.25 3 " + words(face) + "\n";
+  for (const auto& p : kSampleCorners) text += words(p) + " 7\n";
+  for (const auto& face : kSampleFaces) text += "2 0.5 0.25 3 " + words(face) + "\n";
   return text + "1\n2\n";
 }
 
 std::string ply_body_binary(bool big) {
   std::string bytes;
-  for (const auto& [x, y, z] : kCorners) {
+  for (const auto& [x, y, z] : kSampleCorners) {
     bytes += raw(float(x), big) + raw(double(y), big) + raw(std::int16_t(z), big) + "\7";
   }
-  for (const auto& face : kFaces) {
+  for (const auto& face : kSampleFaces) {
     bytes += raw(std::uint16_t(2), big) + raw(0.5, big) + raw(0.25, big) + "\3";
     for (const int index : face) bytes += raw(std::int32_t(index), big);
   }
@@ -41,11 +42,13 @@ std::string ply_body_binary(bool big) {
 std::string stl_binary() {
   std::string bytes = "solid although binary";
   bytes.resize(80, ' ');
-  bytes += raw(std::uint32_t(kFaces.size()));
-  for (const auto& face : kFaces) {
+  bytes += raw(std::uint32_t(kSampleFaces.size()));
+  for (const auto& face : kSampleFaces) {
     bytes += std::string(12, '\0');
     for (const int index : face) {
-      for (const int coordinate : kCorners[std::size_t(index)]) bytes += raw(float(coordinate));
+      for (const int coordinate : kSampleCorners[std::size_t(index)]) {
+        bytes += raw(float(coordinate));
+      }
     }
     bytes += std::string(2, '\0');
   }
@@ -54,10 +57,10 @@ std::string stl_binary() {
 
 std::string stl_ascii() {
   std::string text = "solid a name\n";
-  for (const auto& face : kFaces) {
+  for (const auto& face : kSampleFaces) {
     text += "  facet normal nan 0 0\n    outer loop\n";
     for (const int index : face) {
-      text += "      vertex " + words(kCorners[std::size_t(index)]) + "\n";
+      text += "      vertex " + words(kSampleCorners[std::size_t(index)]) + "\n";
     }
     text += "    endloop\n  endfacet\n";
   }

@@ -3,19 +3,17 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
-#include <limits>
 #include <vector>
 
 #include "reference/random_scene.hpp"
 #include "support/expect_error.hpp"
+#include "support/non_finite.hpp"
 
 using namespace vantage;
 using namespace vantage::test;
 
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 const Intrinsics kKinect{640, 480, 525, 530, 319.5, 239.25};
 
 PinholeCamera random_camera(Random& random) {
@@ -138,8 +136,8 @@ TEST_CASE("in_view counts pixels from -0.5 up to, but not including, size - 0.5"
   CHECK_FALSE(at(10, 10, 0.4999));
   CHECK_FALSE(at(10, 10, 4.001));
   CHECK_FALSE(at(31.5, 15.5, -1));
-  CHECK_FALSE(camera.in_view({0, 0, std::numeric_limits<float>::quiet_NaN()}));
-  CHECK_FALSE(camera.in_view({std::numeric_limits<float>::infinity(), 0, 1}));
+  CHECK_FALSE(camera.in_view({0, 0, kNaN}));
+  CHECK_FALSE(camera.in_view({kInfinity, 0, 1}));
 }
 
 TEST_CASE("intrinsics that are none are refused with the value") {

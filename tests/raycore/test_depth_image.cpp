@@ -3,17 +3,13 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
-#include <limits>
 #include <memory>
 
 #include "support/expect_error.hpp"
+#include "support/non_finite.hpp"
 
 using namespace vantage;
 using namespace vantage::test;
-
-namespace {
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
-}
 
 TEST_CASE("a new depth image knows nothing") {
   const DepthImage depth(3, 2);

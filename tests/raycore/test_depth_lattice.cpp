@@ -1,11 +1,11 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
-#include <limits>
 
 #include "reference/plain_seen_space.hpp"
 #include "reference/random_lattices.hpp"
 #include "support/expect_error.hpp"
+#include "support/non_finite.hpp"
 #include "support/scene_count.hpp"
 #include "vantage/raycore/depth_lattice.hpp"
 
@@ -13,8 +13,6 @@ using namespace vantage;
 using namespace vantage::test;
 
 namespace {
-
-constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
 
 /// Looks along +z from the origin; pixel (100 x / z, 100 y / z).
 DepthLattice lattice_of(std::vector<float> columns, std::vector<float> rows,
@@ -49,7 +47,7 @@ TEST_CASE("a lattice sees up to its surface, which is a plane in inverse depth")
 
 TEST_CASE("a cell is there if all its four depths are known") {
   const DepthLattice lattice =
-      lattice_of({0, 10, 20, 30}, {0, 10, 20}, {1, 1, 1, 1, 1, 1, kUnknown, 1, 1, 1, 1, 1});
+      lattice_of({0, 10, 20, 30}, {0, 10, 20}, {1, 1, 1, 1, 1, 1, kNaN, 1, 1, 1, 1, 1});
   for (std::size_t j = 0; j < 2; ++j) {
     for (std::size_t i = 0; i < 3; ++i) {
       CHECK(lattice.has_cell(i, j) == (i == 0));
@@ -84,12 +82,12 @@ TEST_CASE("lattices that are none are refused, and the error says where") {
   const auto expect_refusal = [](const DepthLattice& lattice, const char* message) {
     expect_bad_input("depth lattice", message, [&] { lattice.check(); });
   };
-  lattice_of({0, 1}, {0, 1}, {1, kUnknown, 2, 3}).check();
+  lattice_of({0, 1}, {0, 1}, {1, kNaN, 2, 3}).check();
   expect_refusal(lattice_of({0}, {0, 1}, {1, 1}), "it has 1 columns; expected 2 to 32767");
   expect_refusal(lattice_of({0, 1}, {}, {}), "it has 0 rows; expected 2 to 32767");
   expect_refusal(lattice_of({0, 1, 1}, {0, 1}, std::vector<float>(6, 1.f)),
                  "columns[2] is 1 after 1; expected them to increase");
-  expect_refusal(lattice_of({0, 1}, {0, kUnknown}, {1, 1, 1, 1}),
+  expect_refusal(lattice_of({0, 1}, {0, kNaN}, {1, 1, 1, 1}),
                  "rows[1] is nan; expected pixel coordinates within 1e+06");
   expect_refusal(lattice_of({-2e6f, 1}, {0, 1}, {1, 1, 1, 1}), "columns[0] is -2000000");
   expect_refusal(lattice_of({0, 1}, {0, 1}, {1, 1, 1}), "it has 3 depths; expected 2 x 2 = 4");

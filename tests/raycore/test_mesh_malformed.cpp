@@ -1,11 +1,11 @@
 // Mesh files that are not what they should be: each is refused with the place and what was found.
 #include <doctest/doctest.h>
 
-#include <limits>
 #include <vantage/raycore/mesh_io.hpp>
 
 #include "raycore/mesh_samples.hpp"
 #include "support/expect_error.hpp"
+#include "support/non_finite.hpp"
 #include "support/test_data.hpp"
 
 using namespace vantage;
@@ -20,8 +20,6 @@ void expect_refused(std::string_view name, std::string_view bytes, std::string_v
   const auto file = folder.write(name, bytes);
   test::expect_bad_input(where, message, [&] { read_mesh(file); });
 }
-
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 
 }  // namespace
 
@@ -56,7 +54,7 @@ TEST_CASE("binary STL: a count beyond the file") {
 
 TEST_CASE("binary STL: a vertex that is not finite or too far out") {
   std::string bytes = test::stl_binary();
-  bytes = overwritten(bytes, 84 + 50 + 12 + 4, test::raw(kNan));
+  bytes = overwritten(bytes, 84 + 50 + 12 + 4, test::raw(test::kNaN));
   expect_refused("a.stl", bytes, "a.stl, triangle 1", "(0, nan, 0)");
   bytes = overwritten(bytes, 84 + 50 + 12 + 4, test::raw(2e6f));
   expect_refused("a.stl", bytes, "a.stl, triangle 1", "expected coordinates below 1e+06 m");
@@ -155,8 +153,8 @@ TEST_CASE("binary PLY: every kind of damage is found with its element") {
     const std::size_t body = whole.find("end_header\n") + 11;
     const std::size_t face_1 = body + 4 * 15 + 31;
     std::string bytes = whole;
-    expect_refused("a.ply", overwritten(bytes, body + 15, test::raw(kNan, big)), "a.ply, vertex 1",
-                   "(nan, 0, 0)");
+    expect_refused("a.ply", overwritten(bytes, body + 15, test::raw(test::kNaN, big)),
+                   "a.ply, vertex 1", "(nan, 0, 0)");
     bytes = whole;
     expect_refused("a.ply", overwritten(bytes, face_1 + 19, test::raw(std::int32_t(4), big)),
                    "a.ply, face 1", "vertex 4; expected");

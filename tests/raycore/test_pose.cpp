@@ -2,12 +2,13 @@
 
 #include <doctest/doctest.h>
 
+#include <Eigen/Geometry>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "reference/random_scene.hpp"
 #include "support/expect_error.hpp"
+#include "support/non_finite.hpp"
 
 using namespace vantage;
 using namespace vantage::test;
@@ -16,9 +17,6 @@ using Eigen::Quaterniond;
 using Eigen::Vector3d;
 
 namespace {
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 void check_valid(const Pose& pose) {
   const Matrix3d& r = pose.rotation();
@@ -151,4 +149,22 @@ TEST_CASE("a quaternion's norm may be off by 1e-3") {
   expect_bad_input("pose", "nan", [] {
     Pose::from_quaternion(Quaterniond(kNaN, 0, 0, 0), {0, 0, 0});
   });
+}
+
+TEST_CASE("the rotation between two directions is the smallest that takes one to the other") {
+  Random random(8);
+  const auto check = [](const Vector3d& from, const Vector3d& to) {
+    const Quaterniond q = rotation_between(from, to);
+    CHECK(std::abs(q.norm() - 1) < 1e-12);
+    CHECK((q * from.normalized() - to.normalized()).norm() < 1e-9);
+    const double angle = std::atan2(from.cross(to).norm(), from.dot(to));
+    CHECK(Eigen::AngleAxisd(q).angle() == doctest::Approx(angle));
+  };
+  for (int i = 0; i < 500; ++i) {
+    const Vector3d from = random.uniform(0.1, 10) * random.direction();
+    check(from, random.uniform(0.1, 10) * random.direction());
+    check(from, 2 * from);
+    check(from, -3 * from);
+    check(from, 1e-4 * random.direction() - from);
+  }
 }

@@ -12,7 +12,7 @@ using namespace vantage::test;
 namespace {
 
 constexpr std::uint32_t kScenes = 240;
-constexpr int kRays = 50;
+constexpr int kRaysPerScene = 50;
 
 Ray random_ray(Random& random) {
   const Eigen::Vector3d origin = random.in_cube(1.5);
@@ -47,7 +47,7 @@ TEST_CASE("closest hits match the twin on random scenes") {
   for (std::uint32_t seed = 0; seed < kScenes; ++seed) {
     const RandomScene s = random_scene(seed, seed % 2 == 1);
     Random random(seed + 100000);
-    for (int i = 0; i < kRays; ++i, ++rays) {
+    for (int i = 0; i < kRaysPerScene; ++i, ++rays) {
       const Ray ray = random_ray(random);
       const double infinity = std::numeric_limits<double>::infinity();
       const Verdict expected = s.reference.closest_hit(ray.origin, ray.direction, 0, infinity);
@@ -79,7 +79,7 @@ TEST_CASE("occlusion matches the twin on random scenes") {
   for (std::uint32_t seed = 0; seed < kScenes; ++seed) {
     const RandomScene s = random_scene(seed, seed % 2 == 1);
     Random random(seed + 200000);
-    for (int i = 0; i < kRays; ++i, ++rays) {
+    for (int i = 0; i < kRaysPerScene; ++i, ++rays) {
       const Eigen::Vector3f from = random.in_cube(1.2).cast<float>();
       const Eigen::Vector3f to = random.in_cube(1.2).cast<float>();
       const Verdict expected = s.reference.occluded(from, to);

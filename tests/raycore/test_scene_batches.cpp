@@ -3,11 +3,11 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
-#include <limits>
 #include <string>
 
 #include "reference/random_scene.hpp"
 #include "support/expect_error.hpp"
+#include "support/non_finite.hpp"
 
 using namespace vantage;
 using namespace vantage::test;
@@ -15,8 +15,6 @@ using namespace vantage::test;
 namespace {
 
 constexpr std::size_t kSizes[] = {0, 1, 15, 16, 17, 1023, 1024, 1025, 5000};
-constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 Points random_points(Random& random, std::size_t size, double half) {
   Points points(size);

@@ -11,6 +11,7 @@
 #include "reference/random_lattices.hpp"
 #include "seen_tiles.hpp"
 #include "support/expect_error.hpp"
+#include "support/non_finite.hpp"
 #include "support/scene_count.hpp"
 
 using namespace vantage;
@@ -18,7 +19,6 @@ using namespace vantage::test;
 
 namespace {
 
-constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
 const Box kUnitBox({-0.5, -0.5, 0}, {0.5, 0.5, 1});
 
 /// From 2 m above the middle of the floor down to `height_m`, 2.5 m of it in each direction: more
@@ -131,7 +131,7 @@ TEST_CASE("the same camera twice shows what it shows once, and one that knows no
     for (const DepthLattice& lattice : lattices) {
       scene.lattices.push_back(lattice);
       scene.lattices.push_back(lattice);
-      std::fill(scene.lattices.back().depth.begin(), scene.lattices.back().depth.end(), kUnknown);
+      std::fill(scene.lattices.back().depth.begin(), scene.lattices.back().depth.end(), kNaN);
     }
     const SeenSpace twice(scene.lattices, scene.box);
     Random random(seed);

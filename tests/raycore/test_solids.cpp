@@ -2,12 +2,12 @@
 
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <numbers>
 #include <random>
 
 #include "closed_mesh.hpp"
 #include "support/expect_error.hpp"
+#include "support/non_finite.hpp"
 #include "vantage/raycore/solids.hpp"
 
 using namespace vantage;
@@ -17,8 +17,6 @@ using Eigen::Vector3d;
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// The area of a regular polygon with its corners on a circle.
 double polygon_area(double radius, int corners) {
@@ -127,7 +125,7 @@ TEST_CASE("a bin has four walls and a bottom") {
 }
 
 TEST_CASE("sizes that are not positive and finite are refused") {
-  for (const double bad : {0.0, -0.1, kNan, kInfinity}) {
+  for (const double bad : {0.0, -0.1, double(kNaN), double(kInfinity)}) {
     for (int axis = 0; axis < 3; ++axis) {
       Vector3d size(0.1, 0.1, 0.1);
       size[axis] = bad;

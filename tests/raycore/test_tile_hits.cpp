@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "reference/random_scene.hpp"
+#include "seen_tiles.hpp"
 #include "support/expect_error.hpp"
 #include "support/scene_count.hpp"
 #include "vantage/raycore/scene_builder.hpp"
@@ -14,22 +15,12 @@ using namespace vantage::test;
 
 namespace {
 
-PinholeCamera random_camera(Random& random) {
+PinholeCamera random_small_camera(Random& random) {
   const Eigen::Vector3d target = random.in_cube(0.3);
   return {{int(random.below(70)) + 1, int(random.below(60)) + 1, random.uniform(20, 90),
            random.uniform(20, 90), random.uniform(5, 40), random.uniform(5, 30)},
           Pose::looking_at(target + random.uniform(0.2, 2) * random.direction(), target),
           {0.1, random.below(2) == 0 ? 1e6 : random.uniform(1, 3)}};
-}
-
-std::vector<PixelTile> all_tiles(const Intrinsics& k) {
-  std::vector<PixelTile> tiles;
-  for (int row = 0; row < (k.height + 3) / 4; ++row) {
-    for (int column = 0; column < (k.width + 3) / 4; ++column) {
-      tiles.push_back({std::uint16_t(column), std::uint16_t(row)});
-    }
-  }
-  return tiles;
 }
 
 /// The directions of a tile's pixels, one by one.
@@ -50,8 +41,8 @@ TEST_CASE("a tile's hits are those of its pixel rays in one packet") {
     CAPTURE(seed);
     const RandomScene random = random_scene(seed, seed % 3 == 0);
     Random camera_random(seed);
-    const PinholeCamera camera = random_camera(camera_random);
-    const std::vector<PixelTile> tiles = all_tiles(camera.intrinsics());
+    const PinholeCamera camera = random_small_camera(camera_random);
+    const std::vector<PixelTile> tiles = image_tiles(camera.intrinsics());
     std::vector<TileHits> lean(tiles.size());
     random.scene->first_hits(camera, tiles, lean);
     Hits full;
@@ -81,8 +72,8 @@ TEST_CASE("a tile's hits do not depend on the other tiles of the batch") {
     CAPTURE(seed);
     const RandomScene random = random_scene(seed, seed % 3 == 0);
     Random camera_random(seed + 1000);
-    const PinholeCamera camera = random_camera(camera_random);
-    const std::vector<PixelTile> tiles = all_tiles(camera.intrinsics());
+    const PinholeCamera camera = random_small_camera(camera_random);
+    const std::vector<PixelTile> tiles = image_tiles(camera.intrinsics());
     std::vector<TileHits> together(tiles.size()), backwards(tiles.size());
     random.scene->first_hits(camera, tiles, together);
     const std::vector<PixelTile> reversed(tiles.rbegin(), tiles.rend());

@@ -1,9 +1,9 @@
 #include <doctest/doctest.h>
 
-#include <limits>
 #include <vantage/raycore/triangle_mesh.hpp>
 
 #include "support/expect_error.hpp"
+#include "support/non_finite.hpp"
 
 using namespace vantage;
 using Eigen::Vector3d;
@@ -12,8 +12,6 @@ using Eigen::Vector3f;
 namespace {
 
 const std::vector<Vector3f> kCorners = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {2, 0, 0}};
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 /// Six times the volume that the faces enclose: positive if they look outwards.
 double signed_volume(const TriangleMesh& mesh) {
@@ -58,8 +56,8 @@ TEST_CASE("vertices that are not finite or too far out are refused with their nu
   const auto make = [](const Vector3f& p) {
     return TriangleMesh({{0, 0, 0}, {1, 0, 0}, p}, {{0, 1, 2}}, "cube");
   };
-  test::expect_bad_input("cube, vertex 2", "(0, nan, 0)", [&] { make({0, kNan, 0}); });
-  test::expect_bad_input("cube, vertex 2", "(-inf, 0, 0)", [&] { make({-kInfinity, 0, 0}); });
+  test::expect_bad_input("cube, vertex 2", "(0, nan, 0)", [&] { make({0, test::kNaN, 0}); });
+  test::expect_bad_input("cube, vertex 2", "(-inf, 0, 0)", [&] { make({-test::kInfinity, 0, 0}); });
   test::expect_bad_input("cube, vertex 2", "below 1e+06 m", [&] { make({0, 0, 1e6f}); });
   CHECK(make({0, 999999, 0}).triangles().size() == 1);
 }
@@ -94,8 +92,8 @@ TEST_CASE("a factor that is no size is refused") {
   const TriangleMesh mesh(kCorners, {{0, 1, 2}});
   test::expect_bad_input("factor", "is 0", [&] { mesh.scaled(0); });
   test::expect_bad_input("factor", "is -1", [&] { mesh.scaled(-1); });
-  test::expect_bad_input("factor", "is nan", [&] { mesh.scaled(kNan); });
-  test::expect_bad_input("factor", "is inf", [&] { mesh.scaled(kInfinity); });
+  test::expect_bad_input("factor", "is nan", [&] { mesh.scaled(test::kNaN); });
+  test::expect_bad_input("factor", "is inf", [&] { mesh.scaled(test::kInfinity); });
   test::expect_bad_input("scaled mesh, vertex 1", "finite", [&] { mesh.scaled(1e7); });
 }
 

@@ -10,10 +10,10 @@
 
 namespace vantage::test {
 
-inline const std::string kCube = "shape: {box: {size_m: [0.05, 0.05, 0.05]}}";
+inline const std::string kCubeShape = "shape: {box: {size_m: [0.05, 0.05, 0.05]}}";
 
 /// One type from the lines of its mapping, the first of which stands in line 2.
-inline std::string type_of(const std::string& lines) {
+inline std::string type_text(const std::string& lines) {
   return "object_types:\n  - " + lines + "\n";
 }
 
@@ -25,15 +25,15 @@ inline void expect_type_refused(const std::string& lines, std::string_view where
                                 std::initializer_list<std::string_view> parts) {
   CAPTURE(lines);
   TemporaryFolder folder;
-  expect_refused([&] { load(folder, type_of(lines)); }, where, parts);
+  expect_refused([&] { load(folder, type_text(lines)); }, where, parts);
 }
 
-inline std::string with_marker(const std::string& marker, const std::string& shape = kCube) {
+inline std::string with_marker(const std::string& marker, const std::string& shape = kCubeShape) {
   return "{name: a, " + shape + ",\n     features: [{type: aruco, " + marker + "}]}";
 }
 
 inline std::string with_feature(const std::string& keys) {
-  return "{name: a, " + kCube + ",\n     features: [{" + keys + "}]}";
+  return "{name: a, " + kCubeShape + ",\n     features: [{" + keys + "}]}";
 }
 
 }  // namespace vantage::test

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "pose_fit.hpp"
+#include "reconstruction/normal.hpp"
 #include "reference/random_scene.hpp"
 #include "vantage/reconstruction/marker.hpp"
 
@@ -21,12 +22,6 @@ inline const std::vector<Lens>& some_lenses() {
       {kSeenIntrinsics, {-0.28, 0.09, 0, 0, 0}},
       {kSeenIntrinsics, {0.3, 0.05, 0.001, 0, 0.01, 0.35, 0.02, 0.005}}};
   return lenses;
-}
-
-/// Of standard deviation 1 (Box and Muller's).
-inline double normal(Random& random) {
-  const double u = 1 - random.uniform(0, 1), v = random.uniform(0, 1);
-  return std::sqrt(-2 * std::log(u)) * std::cos(2 * std::numbers::pi * v);
 }
 
 inline Eigen::Vector2d normal2(Random& random) {

@@ -11,8 +11,8 @@
 namespace vantage::test {
 namespace {
 
-constexpr Intrinsics kCamera{640, 480, 615, 612, 320.5, 238.5};
-constexpr Distortion kLens{-0.05, 0.03, 0.0006, -0.0004, -0.005};
+constexpr Intrinsics kViewIntrinsics{640, 480, 615, 612, 320.5, 238.5};
+constexpr Distortion kViewDistortion{-0.05, 0.03, 0.0006, -0.0004, -0.005};
 
 /// The middle of a box's side; z points outwards.
 Pose side_frame(const Eigen::Vector3d& size, int side) {
@@ -83,11 +83,6 @@ void disturb(CameraView& view, const ViewNoise& noise, Random& random) {
 
 }  // namespace
 
-double normal(Random& random) {
-  const double radius = std::sqrt(-2 * std::log(1 - random.uniform(0, 1)));
-  return radius * std::cos(random.uniform(0, 2 * std::numbers::pi));
-}
-
 Eigen::Vector3d normal_vector(Random& random, double sigma) {
   Eigen::Vector3d v;
   for (int i = 0; i < 3; ++i) v[i] = sigma * normal(random);
@@ -124,7 +119,7 @@ ObjectType marked_box(const std::string& name, const Eigen::Vector3d& size_m, in
 
 std::vector<CameraView> cameras_around(Random& random, int count, double radius_m) {
   // Made once: a lens looks at its whole border first.
-  static const Lens plain(kCamera, {}), bent(kCamera, kLens);
+  static const Lens plain(kViewIntrinsics, {}), bent(kViewIntrinsics, kViewDistortion);
   std::vector<CameraView> views;
   for (int i = 0; i < count; ++i) {
     const double height = random.uniform(0.35, 0.9), turn = random.uniform(0, 2 * std::numbers::pi);

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "reconstruction/normal.hpp"
 #include "reference/random_scene.hpp"
 #include "vantage/reconstruction/knowledge_base.hpp"
 #include "vantage/reconstruction/observation.hpp"
@@ -11,9 +12,6 @@
 // Scenes whose truth is known and whose features are computed, not detected: tests of
 // reconstruction need no images.
 namespace vantage::test {
-
-/// Standard normal (Box and Muller), the same with every standard library.
-double normal(Random& random);
 
 /// A rotation vector or an offset with this standard deviation along each axis.
 Eigen::Vector3d normal_vector(Random& random, double sigma);

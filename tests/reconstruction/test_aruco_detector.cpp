@@ -15,7 +15,7 @@ using namespace vantage::test;
 
 namespace {
 
-const Intrinsics kCamera{400, 300, 380, 380, 199.5, 149.5};
+const Intrinsics kBoardIntrinsics{400, 300, 380, 380, 199.5, 149.5};
 
 /// Three by two markers, turned, 80 mm apart.
 PrintedBoard board_of(const std::string& dictionary, double size_m) {
@@ -65,7 +65,7 @@ struct Camera {
 };
 
 CornerErrors look(const PrintedBoard& board, const Camera& camera) {
-  const Lens lens(kCamera, camera.distortion);
+  const Lens lens(kBoardIntrinsics, camera.distortion);
   ArucoOptions options{{board.markers[0].dictionary}, {}};
   if (camera.knows_lens) options.lens = lens;
   const ArucoDetector detector(options);
@@ -159,7 +159,7 @@ TEST_CASE("several dictionaries at once, sorted by key and then from left to rig
   PrintedBoard board = board_of("4X4_50", 0.04);
   board.markers[0].dictionary = "5X5_100";
   board.markers[4].id = board.markers[2].id;
-  const Lens lens(kCamera, {});
+  const Lens lens(kBoardIntrinsics, {});
   const ColorImage image =
       BoardCamera(board, lens, Pose::looking_at({0, -0.05, 0.3}, {0, 0, 0})).photograph();
   const auto seen = ArucoDetector({{"5X5_100", "4X4_50"}, {}}).detect(image);
@@ -197,7 +197,7 @@ TEST_CASE("dictionaries that there are not, and an image of another camera, are 
   expect_bad_input("dictionaries", "the larger one", [] {
     ArucoDetector({{"4X4_50", "4X4_250"}, {}});
   });
-  const ArucoDetector detector({{"4X4_50"}, Lens(kCamera, {})});
+  const ArucoDetector detector({{"4X4_50"}, Lens(kBoardIntrinsics, {})});
   expect_bad_input("image", "expected the lens' 400 x 300",
                    [&] { detector.detect(ColorImage(640, 480)); });
 }

@@ -13,10 +13,10 @@ std::string matrix(const std::string& key, int rows, int columns, const std::str
                      key, rows, columns, numbers);
 }
 
-const std::string kSize = "image_width: 640\nimage_height: 480\n";
-const std::string kCamera =
+const std::string kSizeLines = "image_width: 640\nimage_height: 480\n";
+const std::string kCameraLines =
     matrix("camera_matrix", 3, 3, "615., 0., 322.3, 0., 611., 238.1, 0., 0., 1.");
-const std::string kLens =
+const std::string kLensLines =
     matrix("distortion_coefficients", 5, 1, "0.1, -0.05, 0.001, -0.002, 0.01");
 
 /// Reads a file with these parts.
@@ -35,20 +35,20 @@ void expect_calibration_refused(const std::string& text, std::string_view where_
 }  // namespace
 
 TEST_CASE("calibrations of OpenCV's tools are read: rows and columns of 4, 5 and 8 coefficients") {
-  const Lens lens = read(kSize + kCamera + kLens, 640, 480);
+  const Lens lens = read(kSizeLines + kCameraLines + kLensLines, 640, 480);
   CHECK(lens.intrinsics() == Intrinsics{640, 480, 615, 611, 322.3, 238.1});
   CHECK(lens.distortion() == Distortion{0.1, -0.05, 0.001, -0.002, 0.01});
   const std::string key = "distortion_coefficients";
   const std::string eight = "0.3, 0.05, 0.001, 0, 0.01, 0.35, 0.02, 0.005";
   const Distortion rational{0.3, 0.05, 0.001, 0, 0.01, 0.35, 0.02, 0.005};
-  CHECK(read(kSize + kCamera + matrix(key, 1, 4, "0.1, 0, 0, 0.002")).distortion() ==
+  CHECK(read(kSizeLines + kCameraLines + matrix(key, 1, 4, "0.1, 0, 0, 0.002")).distortion() ==
         Distortion{0.1, 0, 0, 0.002});
-  CHECK(read(kSize + kCamera + matrix(key, 1, 8, eight)).distortion() == rational);
-  CHECK(read(kSize + kCamera + matrix(key, 12, 1, eight + ", 0, 0, 0, 0")).distortion() ==
+  CHECK(read(kSizeLines + kCameraLines + matrix(key, 1, 8, eight)).distortion() == rational);
+  CHECK(read(kSizeLines + kCameraLines + matrix(key, 12, 1, eight + ", 0, 0, 0, 0")).distortion() ==
         rational);
-  CHECK(read(kSize + kCamera + matrix(key, 1, 14, eight + ", 0, 0, 0, 0, 0, 0")).distortion() ==
-        rational);
-  CHECK(read(kCamera + kLens, 640, 480).intrinsics() == lens.intrinsics());
+  CHECK(read(kSizeLines + kCameraLines + matrix(key, 1, 14, eight + ", 0, 0, 0, 0, 0, 0"))
+            .distortion() == rational);
+  CHECK(read(kCameraLines + kLensLines, 640, 480).intrinsics() == lens.intrinsics());
 }
 
 TEST_CASE("the same in XML") {
@@ -76,20 +76,22 @@ TEST_CASE("the calibration of the printed board's camera is a lens") {
 }
 
 TEST_CASE("what is missing, of the wrong size or no number is refused with its place") {
-  expect_calibration_refused(kSize + kLens, "camera.yml: camera_matrix", {"missing", "3 × 3"});
-  expect_calibration_refused(kSize + kCamera, ": distortion_coefficients",
+  expect_calibration_refused(kSizeLines + kLensLines, "camera.yml: camera_matrix",
+                             {"missing", "3 × 3"});
+  expect_calibration_refused(kSizeLines + kCameraLines, ": distortion_coefficients",
                              {"missing", "4, 5 or 8"});
-  expect_calibration_refused(kCamera + kLens, ": image_width", {"missing", "no image says it"});
-  expect_calibration_refused(kSize + kCamera + kLens, ": image_width",
+  expect_calibration_refused(kCameraLines + kLensLines, ": image_width",
+                             {"missing", "no image says it"});
+  expect_calibration_refused(kSizeLines + kCameraLines + kLensLines, ": image_width",
                              {"640", "the images have 1280"}, 1280, 960);
-  expect_calibration_refused("image_width: wide\nimage_height: 3\n" + kCamera + kLens,
+  expect_calibration_refused("image_width: wide\nimage_height: 3\n" + kCameraLines + kLensLines,
                              ": image_width", {"no whole number"});
-  expect_calibration_refused("image_width: 0\nimage_height: 3\n" + kCamera + kLens,
+  expect_calibration_refused("image_width: 0\nimage_height: 3\n" + kCameraLines + kLensLines,
                              ": camera_matrix", {"width is 0"});
-  expect_calibration_refused(kSize + kLens + "camera_matrix: [ 1, 2, 3 ]\n", ": camera_matrix",
-                             {"no OpenCV matrix"});
+  expect_calibration_refused(kSizeLines + kLensLines + "camera_matrix: [ 1, 2, 3 ]\n",
+                             ": camera_matrix", {"no OpenCV matrix"});
   const auto camera = [](const std::string& numbers) {
-    return kSize + kLens + matrix("camera_matrix", 3, 3, numbers);
+    return kSizeLines + kLensLines + matrix("camera_matrix", 3, 3, numbers);
   };
   expect_calibration_refused(camera("615., 0., 322.3, 0., 611., 238.1"), ": camera_matrix",
                              {"no matrix"});
@@ -101,12 +103,13 @@ TEST_CASE("what is missing, of the wrong size or no number is refused with its p
                              ": camera_matrix", {"nan", "finite"});
   expect_calibration_refused(camera("-615., 0., 3., 0., 611., 238.1, 0., 0., 1."),
                              ": camera_matrix", {"-615"});
-  expect_calibration_refused(kSize + kLens + matrix("camera_matrix", 2, 2, "1., 2., 3., 4."),
-                             ": camera_matrix", {"2 × 2"});
-  expect_calibration_refused(kSize + kLens + matrix("camera_matrix", 99999, 99999, "1."),
+  expect_calibration_refused(
+      kSizeLines + kLensLines + matrix("camera_matrix", 2, 2, "1., 2., 3., 4."), ": camera_matrix",
+      {"2 × 2"});
+  expect_calibration_refused(kSizeLines + kLensLines + matrix("camera_matrix", 99999, 99999, "1."),
                              ": camera_matrix", {"99999 × 99999"});
   const auto lens = [](int count, const std::string& numbers) {
-    return kSize + kCamera + matrix("distortion_coefficients", 1, count, numbers);
+    return kSizeLines + kCameraLines + matrix("distortion_coefficients", 1, count, numbers);
   };
   expect_calibration_refused(lens(3, "0., 0., 0."), ": distortion_coefficients",
                              {"1 × 3", "4, 5 or 8"});
@@ -133,7 +136,7 @@ TEST_CASE("files that are no calibrations are refused, wherever they end") {
   refused("%YAML:1.0\n" + std::string(2 << 20, '#'), "at most 1048576");
   expect_bad_input("none.yml", "", [&] { read_calibration(folder / "none.yml"); });
 
-  const std::string whole = "%YAML:1.0\n---\n" + kSize + kCamera + kLens;
+  const std::string whole = "%YAML:1.0\n---\n" + kSizeLines + kCameraLines + kLensLines;
   std::size_t count = 0;
   for (std::size_t end = 0; end + 30 < whole.size(); ++end) {
     const auto file = folder.write("cut.yml", whole.substr(0, end));

@@ -69,13 +69,13 @@ std::vector<LocatedView> located_views(const std::filesystem::path& folder) {
   return views;
 }
 
-struct PoseError {
+struct BoardError {
   double mm = 0;  ///< in the middle of the object's markers
   double degrees = 0;
 };
 
 /// Of the one object that there has to be.
-PoseError error_of(const Reconstruction& found) {
+BoardError error_of(const Reconstruction& found) {
   REQUIRE(found.objects.size() == 1);
   const Pose& pose = found.objects[0].T_world_object;
   const Eigen::Vector3d middle(0, -0.05, 0);
@@ -111,8 +111,8 @@ TEST_CASE("the printed board: multi-view PnP and SVD find its lower half where i
   std::vector<CameraView> views;
   for (LocatedView& located : located_views(*folder)) views.push_back(std::move(located.view));
 
-  const PoseError pnp = error_of(reconstruct_pnp(views, knowledge));
-  const PoseError svd = error_of(reconstruct_svd(views, knowledge));
+  const BoardError pnp = error_of(reconstruct_pnp(views, knowledge));
+  const BoardError svd = error_of(reconstruct_svd(views, knowledge));
   MESSAGE("PnP: " << pnp.mm << " mm, " << pnp.degrees << " degrees");
   MESSAGE("SVD: " << svd.mm << " mm, " << svd.degrees << " degrees");
   CHECK(pnp.mm < 0.63);
@@ -121,7 +121,7 @@ TEST_CASE("the printed board: multi-view PnP and SVD find its lower half where i
   CHECK(svd.mm < 2);
   CHECK(svd.degrees < 1.1);
   for (const CameraView& view : views) {
-    const PoseError alone = error_of(reconstruct_svd({&view, 1}, knowledge));
+    const BoardError alone = error_of(reconstruct_svd({&view, 1}, knowledge));
     MESSAGE("SVD, " << view.name << ": " << alone.mm << " mm, " << alone.degrees << " degrees");
     CHECK(alone.mm < 2.5);
     CHECK(alone.degrees < 1.35);

@@ -69,7 +69,7 @@ TEST_CASE("a type's keys are read") {
   TemporaryFolder folder;
   const FileKnowledgeBase base = load(
       folder,
-      type_of(
+      type_text(
           "name: tin\n"
           "    is_a: [container, round thing]\n"
           "    shape: {cylinder: {radius_m: 0.03, height_m: 0.06}}\n"
@@ -109,7 +109,7 @@ TEST_CASE("a type's keys are read") {
   CHECK(marker.size_m == 0.02);
   CHECK(marker.T_object_marker.translation() == Eigen::Vector3d(0.001, 0, -0.03));
   CHECK(marker.T_object_marker.rotation().col(2) == -Eigen::Vector3d::UnitZ());
-  const FileKnowledgeBase plain = load(folder, type_of("{name: a, " + kCube + "}"));
+  const FileKnowledgeBase plain = load(folder, type_text("{name: a, " + kCubeShape + "}"));
   CHECK(plain.types()[0]->is_a.empty());
   CHECK(plain.types()[0]->features.empty());
   CHECK(plain.types()[0]->symmetries.none());
@@ -122,30 +122,31 @@ TEST_CASE("a mesh file is read relative to the file that names it") {
                "solid t\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1000 0 0\n"
                "vertex 0 1000 0\nendloop\nendfacet\nendsolid t\n");
   const FileKnowledgeBase base =
-      load(folder, type_of("{name: a, shape: {mesh: {file: tri.stl, unit_m: 0.001}}}"));
+      load(folder, type_text("{name: a, shape: {mesh: {file: tri.stl, unit_m: 0.001}}}"));
   CHECK(bounds_of(*base.types()[0]->mesh).sizes() == Eigen::Vector3d(1, 1, 0));
   CHECK(base.files() == std::vector{folder / "types.yaml", folder / "tri.stl"});
 }
 
 TEST_CASE("a type that is none is refused") {
   expect_type_refused("{name: a}", "types.yaml:2: object_types[0].shape", {"missing"});
-  expect_type_refused("{" + kCube + "}", "object_types[0].name", {"missing"});
+  expect_type_refused("{" + kCubeShape + "}", "object_types[0].name", {"missing"});
   expect_type_refused("{name: a, shape: {}}", "types.yaml:2: object_types[0].shape",
                       {"exactly one of the keys \"box\", \"cylinder\""});
   expect_type_refused("{name: a, shape: {boks: {size_m: [1, 1, 1]}}}", "shape.boks", {"\"box\""});
   expect_type_refused("{name: a, shape: {box: {size_m: [1, -1, 1]}}}",
                       "object_types[0].shape.box.size_m[1]", {"found -1"});
-  expect_type_refused("{name: a, " + kCube + ", color: [0, 0, 2]}", "object_types[0].color[2]",
+  expect_type_refused("{name: a, " + kCubeShape + ", color: [0, 0, 2]}", "object_types[0].color[2]",
                       {"found 2"});
-  expect_type_refused("{name: a, " + kCube + ", colour: [0, 0, 1]}", "object_types[0].colour",
+  expect_type_refused("{name: a, " + kCubeShape + ", colour: [0, 0, 1]}", "object_types[0].colour",
                       {"\"color\""});
   expect_type_refused("{name: a, shape: {mesh: {file: gone.stl}}}",
                       "object_types[0].shape.mesh.file", {"no file", "gone.stl"});
   expect_type_refused(
-      "{name: a, " + kCube + ", symmetries: {discrete: [{w: 1, x: 1, y: 0, z: 0}]}}",
+      "{name: a, " + kCubeShape + ", symmetries: {discrete: [{w: 1, x: 1, y: 0, z: 0}]}}",
       "object_types[0].symmetries.discrete[0]", {"norm"});
-  expect_type_refused("{name: a, " + kCube + ", symmetries: {continuous: [{axis: [0, 0, 0]}]}}",
-                      "object_types[0].symmetries.continuous[0].axis", {"no direction"});
+  expect_type_refused(
+      "{name: a, " + kCubeShape + ", symmetries: {continuous: [{axis: [0, 0, 0]}]}}",
+      "object_types[0].symmetries.continuous[0].axis", {"no direction"});
 }
 
 TEST_CASE("sizes that make no solid are refused where they stand") {
@@ -157,7 +158,7 @@ TEST_CASE("sizes that make no solid are refused where they stand") {
 
 TEST_CASE("names are there once in all of the files") {
   TemporaryFolder folder;
-  const std::string text = type_of("{name: a, " + kCube + "}");
+  const std::string text = type_text("{name: a, " + kCubeShape + "}");
   const std::vector<fs::path> files{folder.write("1.yaml", text), folder.write("2.yaml", text)};
   expect_refused([&] { FileKnowledgeBase base(files); }, "2.yaml:2: object_types[0]",
                  {"\"a\"", "1.yaml:2: object_types[0]"});
@@ -165,7 +166,7 @@ TEST_CASE("names are there once in all of the files") {
 
 TEST_CASE("what files say of the hierarchy adds up") {
   TemporaryFolder folder;
-  const std::string types = type_of("{name: a, is_a: [b], " + kCube + "}");
+  const std::string types = type_text("{name: a, is_a: [b], " + kCubeShape + "}");
   const fs::path first = folder.write("1.yaml", types + "hierarchy:\n  b: [c]\n  c: [d]\n");
   const auto with = [&](const std::string& hierarchy) {
     return FileKnowledgeBase(

@@ -1,21 +1,12 @@
 #include <doctest/doctest.h>
 
+#include "reconstruction/cube_type.hpp"
 #include "support/expect_error.hpp"
 #include "vantage/raycore/solids.hpp"
 #include "vantage/reconstruction/knowledge_base.hpp"
 
 namespace vantage::test {
 namespace {
-
-const auto kMesh = std::make_shared<const TriangleMesh>(box_solid({0.05, 0.05, 0.05}));
-
-ObjectType type_of(const std::string& name, std::vector<std::string> is_a = {}) {
-  return {.name = name, .is_a = std::move(is_a), .mesh = kMesh};
-}
-
-ObjectFeature marker(int id, const Eigen::Vector3d& at_m = {0, 0, 0.025}) {
-  return marker_feature({"4X4_50", id, 0.03, Pose::from_translation(at_m)});
-}
 
 std::vector<std::string> names(const std::vector<TypePtr>& types) {
   std::vector<std::string> all;
@@ -38,7 +29,7 @@ class OneDuck final : public KnowledgeBase {
   }
 
  private:
-  std::vector<TypePtr> types_{std::make_shared<const ObjectType>(type_of("duck"))};
+  std::vector<TypePtr> types_{std::make_shared<const ObjectType>(cube_type("duck"))};
   std::vector<TypeFeature> yellow_{{types_.front(), 0}}, none_;
 };
 
@@ -48,7 +39,7 @@ TEST_CASE("a marker's key is its family and id, its points are its corners") {
   CHECK(marker_key("4X4_50", 17) == FeatureKey{"aruco", "4X4/17"});
   CHECK(marker_key("4X4_250", 17) == marker_key("4X4_50", 17));
   CHECK(marker_key("ARUCO_ORIGINAL", 3) == FeatureKey{"aruco", "ARUCO_ORIGINAL/3"});
-  const ObjectFeature feature = marker(7, {1, 2, 3});
+  const ObjectFeature feature = cube_marker(7, {1, 2, 3});
   CHECK(feature.key == marker_key("4X4_50", 7));
   CHECK((feature.points() ==
          std::vector<Eigen::Vector3d>{
@@ -60,8 +51,8 @@ TEST_CASE("a marker's key is its family and id, its points are its corners") {
 }
 
 TEST_CASE("a type's markers are those of its features, in their order") {
-  ObjectType type = type_of("cube");
-  type.features = {marker(3), {{"color", "red"}, FeatureLabel{}}, marker(1)};
+  ObjectType type = cube_type("cube");
+  type.features = {cube_marker(3), {{"color", "red"}, FeatureLabel{}}, cube_marker(1)};
   const std::vector<Marker> markers = type.markers();
   REQUIRE(markers.size() == 2);
   CHECK(markers[0].id == 3);
@@ -69,9 +60,9 @@ TEST_CASE("a type's markers are those of its features, in their order") {
 }
 
 TEST_CASE("types are found by name and by feature, in the order in which they were given") {
-  ObjectType a = type_of("a"), b = type_of("b");
-  a.features = {marker(1), marker(2, {0, 0, 0.1})};
-  b.features = {{{"color", "red"}, FeatureLabel{}}, marker(2)};
+  ObjectType a = cube_type("a"), b = cube_type("b");
+  a.features = {cube_marker(1), cube_marker(2, {0, 0, 0.1})};
+  b.features = {{{"color", "red"}, FeatureLabel{}}, cube_marker(2)};
   const MemoryKnowledgeBase base({b, a});
   CHECK(names(base.types()) == std::vector<std::string>{"b", "a"});
   CHECK(base.find("a") == base.types()[1]);
@@ -88,14 +79,14 @@ TEST_CASE("types are found by name and by feature, in the order in which they we
 }
 
 TEST_CASE("one marker may be on a type several times") {
-  ObjectType type = type_of("cube");
-  type.features = {marker(1), marker(1, {0, 0, -0.025})};
+  ObjectType type = cube_type("cube");
+  type.features = {cube_marker(1), cube_marker(1, {0, 0, -0.025})};
   CHECK(MemoryKnowledgeBase({type}).with_feature(marker_key("4X4_50", 1)).size() == 2);
 }
 
 TEST_CASE("what something is goes up through types and through names that are none") {
-  const MemoryKnowledgeBase base({type_of("red_cube", {"cube"}), type_of("mug", {"container"}),
-                                  type_of("big_red_cube", {"red_cube", "container"})},
+  const MemoryKnowledgeBase base({cube_type("red_cube", {"cube"}), cube_type("mug", {"container"}),
+                                  cube_type("big_red_cube", {"red_cube", "container"})},
                                  {{"cube", {"block", "toy"}}, {"block", {"thing"}}});
   CHECK(base.is_a("red_cube", "red_cube"));
   CHECK(base.is_a("red_cube", "cube"));
@@ -112,7 +103,7 @@ TEST_CASE("what something is goes up through types and through names that are no
 }
 
 TEST_CASE("two ways up to one ancestor are no circle, and a long way is none, either") {
-  const MemoryKnowledgeBase diamond({type_of("a", {"b", "c"})}, {{"b", {"d"}}, {"c", {"d"}}});
+  const MemoryKnowledgeBase diamond({cube_type("a", {"b", "c"})}, {{"b", {"d"}}, {"c", {"d"}}});
   CHECK(diamond.is_a("a", "d"));
   Hierarchy chain;
   for (int i = 0; i < 20000; ++i) chain[std::to_string(i)] = {std::to_string(i + 1)};
@@ -128,9 +119,9 @@ TEST_CASE("two ways up to one ancestor are no circle, and a long way is none, ei
 }
 
 TEST_CASE("nothing is its own ancestor") {
-  expect_refused([] { MemoryKnowledgeBase({type_of("a", {"a"})}); }, "a",
+  expect_refused([] { MemoryKnowledgeBase({cube_type("a", {"a"})}); }, "a",
                  {"\"a is a a\"", "its own ancestor"});
-  ObjectType placed = type_of("a", {"b"});
+  ObjectType placed = cube_type("a", {"b"});
   placed.place = "types.yaml:2: object_types[0]";
   const Hierarchy back{{"b", {"x", "c"}}, {"c", {"a"}}, {"0", {"a"}}};
   expect_refused([&] { MemoryKnowledgeBase({placed}, back); }, "types.yaml:2: object_types[0]",
@@ -143,7 +134,7 @@ TEST_CASE("nothing is its own ancestor") {
 }
 
 TEST_CASE("a type that the knowledge base does not have is refused with the nearest") {
-  const MemoryKnowledgeBase base({type_of("red_cube"), type_of("duck")});
+  const MemoryKnowledgeBase base({cube_type("red_cube"), cube_type("duck")});
   CHECK(base.get("duck", "here") == base.types()[1]);
   expect_refused([&] { (void)base.get("redcube", "--types"); }, "--types",
                  {"\"redcube\"", "did you mean \"red_cube\"?"});

@@ -2,15 +2,12 @@
 
 #include <doctest/doctest.h>
 
-#include <limits>
-
+#include "support/non_finite.hpp"
 #include "vantage/reconstruction/observation.hpp"
 
 using namespace vantage;
 
 namespace {
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 Observation marker(std::vector<Eigen::Vector2d> corners, double sigma_px = 0.1) {
   return {{"aruco", "4X4/1"}, SeenPoints{std::move(corners), sigma_px}};
@@ -28,7 +25,7 @@ TEST_CASE("a good observation has no fault") {
 
 TEST_CASE("faults of points are named") {
   CHECK(fault_of({{"keypoint", "spout"}, SeenPoints{}}) == "there are no points");
-  CHECK(fault_of({{"keypoint", "x"}, SeenPoints{{{3, 4}, {kNan, 1}}, 1}}) ==
+  CHECK(fault_of({{"keypoint", "x"}, SeenPoints{{{3, 4}, {test::kNaN, 1}}, 1}}) ==
         "point 1 is not finite");
   CHECK(fault_of(marker({{0, 0}, {9, 1}, {8, HUGE_VAL}, {-1, 8}})) == "corner 2 is not finite");
   CHECK(fault_of(marker({{0, 0}, {9, 1}, {9, 1}, {-1, 8}})) == "corner 2 is the same as corner 1");
@@ -44,12 +41,12 @@ TEST_CASE("faults of points are named") {
 }
 
 TEST_CASE("a standard deviation is a positive number") {
-  for (const double sigma : {0.0, -1.0, kNan, HUGE_VAL}) {
+  for (const double sigma : {0.0, -1.0, double(test::kNaN), HUGE_VAL}) {
     CAPTURE(sigma);
     CHECK(fault_of(marker({{0, 0}, {9, 1}, {8, 9}, {-1, 8}}, sigma)).find("sigma_px") == 0);
     CHECK(fault_of({{"pose", "mug"}, SeenPose{{}, sigma, 1}}).find("sigma_m") == 0);
     CHECK(fault_of({{"pose", "mug"}, SeenPose{{}, 1, sigma}}).find("sigma_rad") == 0);
     CHECK(fault_of({{"color", "red"}, SeenLabel{{0, 0, 1}, sigma}}).find("sigma_m") == 0);
   }
-  CHECK(fault_of({{"color", "red"}, SeenLabel{{0, kNan, 1}}}) == "the point is not finite");
+  CHECK(fault_of({{"color", "red"}, SeenLabel{{0, test::kNaN, 1}}}) == "the point is not finite");
 }

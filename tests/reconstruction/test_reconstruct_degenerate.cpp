@@ -1,9 +1,8 @@
 #include <doctest/doctest.h>
 
-#include <limits>
-
 #include "reconstruction/synthetic_views.hpp"
 #include "support/expect_error.hpp"
+#include "support/non_finite.hpp"
 #include "support/scene_count.hpp"
 #include "vantage/reconstruction/reconstruct.hpp"
 
@@ -13,8 +12,6 @@ using namespace vantage;
 using namespace vantage::test;
 
 namespace {
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 using Method = Reconstruction (*)(std::span<const CameraView>, const KnowledgeBase&,
                                   const ReconstructOptions&, const StopToken&);
@@ -96,7 +93,7 @@ TEST_CASE("degenerate: corners that are not finite, all the same, or in the wron
   Cell cell;
   SUBCASE("NaN") {
     for (CameraView& view : cell.views) {
-      for (Observation& o : view.observations) pixels_of(o)[2].x() = kNan;
+      for (Observation& o : view.observations) pixels_of(o)[2].x() = kNaN;
     }
     cell.expect_nothing("finite");
   }
@@ -251,11 +248,11 @@ TEST_CASE("degenerate: options and covariances out of range are errors") {
     refuse("options: merge_m", "found -1");
   }
   SUBCASE("least_evidence") {
-    options.least_evidence = kNan;
+    options.least_evidence = kNaN;
     refuse("options: least_evidence", "found nan");
   }
   SUBCASE("covariance") {
-    cell.views[1].covariance(2, 2) = kNan;
+    cell.views[1].covariance(2, 2) = kNaN;
     refuse("views: camera 1", "not finite");
   }
 }

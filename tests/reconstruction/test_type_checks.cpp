@@ -1,29 +1,18 @@
 // What a knowledge base in memory refuses.
 #include <doctest/doctest.h>
 
-#include <limits>
-
+#include "reconstruction/cube_type.hpp"
 #include "support/expect_error.hpp"
+#include "support/non_finite.hpp"
 #include "vantage/raycore/solids.hpp"
 #include "vantage/reconstruction/knowledge_base.hpp"
 
 namespace vantage::test {
 namespace {
 
-const auto kMesh = std::make_shared<const TriangleMesh>(box_solid({0.05, 0.05, 0.05}));
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-
-ObjectType type_of(const std::string& name, std::vector<std::string> is_a = {}) {
-  return {.name = name, .is_a = std::move(is_a), .mesh = kMesh};
-}
-
-ObjectFeature marker(int id, const Eigen::Vector3d& at_m = {0, 0, 0.025}) {
-  return marker_feature({"4X4_50", id, 0.03, Pose::from_translation(at_m)});
-}
-
 void expect_feature_refused(std::vector<ObjectFeature> features, const std::string& where,
                             std::initializer_list<std::string_view> parts) {
-  ObjectType type = type_of("tin");
+  ObjectType type = cube_type("tin");
   type.features = std::move(features);
   expect_refused([&] { MemoryKnowledgeBase({type}); }, where, parts);
 }
@@ -33,28 +22,29 @@ void expect_feature_refused(std::vector<ObjectFeature> features, const std::stri
 TEST_CASE("types that are none are refused") {
   expect_refused(
       [] {
-        MemoryKnowledgeBase({type_of("a"), type_of("a")});
+        MemoryKnowledgeBase({cube_type("a"), cube_type("a")});
       },
       "a", {"\"a\"", "is taken", "differ"});
   expect_refused([] { MemoryKnowledgeBase({{.name = "a"}}); }, "a", {"no mesh"});
-  ObjectType nameless = type_of("");
+  ObjectType nameless = cube_type("");
   nameless.place = "here";
   expect_refused([&] { MemoryKnowledgeBase({nameless}); }, "here", {"without a name"});
-  ObjectType round = type_of("a");
+  ObjectType round = cube_type("a");
   round.symmetries.continuous = {{Eigen::Vector3d::UnitZ()}, {{0, 0, 2}}};
   expect_refused([&] { MemoryKnowledgeBase({round}); }, "a.symmetries.continuous[1]",
                  {"length 2", "expected 1"});
-  round.symmetries.continuous = {{Eigen::Vector3d::UnitZ(), {0, kNan, 0}}};
+  round.symmetries.continuous = {{Eigen::Vector3d::UnitZ(), {0, kNaN, 0}}};
   expect_refused([&] { MemoryKnowledgeBase({round}); }, "a.symmetries.continuous[0]",
                  {"(0, nan, 0)", "finite"});
 }
 
 TEST_CASE("features that are none are refused") {
   const FeatureKey key{"keypoint", "spout"};
-  expect_feature_refused({marker(1), {key, FeaturePoints{}}}, "tin.features[1]", {"no points"});
-  expect_feature_refused({{key, FeaturePoints{{{0, 0, 0}, {kNan, 0, 0}}}}}, "tin.features[0]",
+  expect_feature_refused({cube_marker(1), {key, FeaturePoints{}}}, "tin.features[1]",
+                         {"no points"});
+  expect_feature_refused({{key, FeaturePoints{{{0, 0, 0}, {kNaN, 0, 0}}}}}, "tin.features[0]",
                          {"point 1", "nan"});
-  expect_feature_refused({{key, FeatureLabel{{{0, kNan, 0}}, 0.1}}}, "tin.features[0]",
+  expect_feature_refused({{key, FeatureLabel{{{0, kNaN, 0}}, 0.1}}}, "tin.features[0]",
                          {"point 0", "nan"});
   expect_feature_refused({{key, FeatureLabel{{{0, 0, 0}}, -0.1}}}, "tin.features[0]",
                          {"radius", "-0.1"});
@@ -68,22 +58,22 @@ TEST_CASE("two features that are the same in everything are refused, others with
   const FeatureKey key{"keypoint", "screw"};
   const Pose there = Pose::from_translation({0, 0, 0.1});
   const std::vector<std::pair<ObjectFeature, ObjectFeature>> pairs{
-      {marker(1), marker(1, {0, 0, 0.1})},
-      {marker(1), marker_feature({"4X4_50", 1, 0.02, Pose::from_translation({0, 0, 0.025})})},
+      {cube_marker(1), cube_marker(1, {0, 0, 0.1})},
+      {cube_marker(1), marker_feature({"4X4_50", 1, 0.02, Pose::from_translation({0, 0, 0.025})})},
       {{key, FeaturePoints{{{0, 0, 0}}}}, {key, FeaturePoints{{{0, 0, 1}}}}},
       {{key, FeaturePose{}}, {key, FeaturePose{there}}},
       {{key, FeatureLabel{}}, {key, FeatureLabel{{{0, 0, 0}}, 0.1}}},
       {{key, FeatureLabel{{{0, 0, 0}}, 0.2}}, {key, FeatureLabel{{{0, 0, 0}}, 0.1}}},
       {{key, FeaturePose{}}, {key, FeatureLabel{}}}};
   for (const auto& [one, other] : pairs) {
-    ObjectType type = type_of("a");
+    ObjectType type = cube_type("a");
     type.features = {one, other};
     CHECK_NOTHROW(MemoryKnowledgeBase({type}));
     expect_feature_refused({one, other, one}, "tin.features[2]", {"features[0] once more"});
     expect_feature_refused({one, other, other}, "tin.features[2]", {"features[1] once more"});
   }
   expect_feature_refused(
-      {marker(1), marker_feature({"4X4_250", 1, 0.03, Pose::from_translation({0, 0, 0.025})})},
+      {cube_marker(1), marker_feature({"4X4_250", 1, 0.03, Pose::from_translation({0, 0, 0.025})})},
       "tin.features[1]", {"aruco 4X4/1 is features[0] once more"});
 }
 

@@ -27,12 +27,12 @@ TEST_CASE("features that are none are refused") {
 TEST_CASE("features of other detectors: points, a pose, a label near points or anywhere") {
   TemporaryFolder folder;
   const FileKnowledgeBase base = load(
-      folder, type_of("name: mug\n    " + kCube +
-                      "\n    features:\n"
-                      "      - {type: keypoint, value: rim, points_m: [[1, 2, 3], [4, 5, 6]]}\n"
-                      "      - {type: pose, value: mug, pose: {translation_m: [0, 0, 0.1]}}\n"
-                      "      - {type: color, value: red, near_m: [[0, 0, 0.1]], radius_m: 0.02}\n"
-                      "      - {type: class, value: \"7\", anywhere: true}"));
+      folder, type_text("name: mug\n    " + kCubeShape +
+                        "\n    features:\n"
+                        "      - {type: keypoint, value: rim, points_m: [[1, 2, 3], [4, 5, 6]]}\n"
+                        "      - {type: pose, value: mug, pose: {translation_m: [0, 0, 0.1]}}\n"
+                        "      - {type: color, value: red, near_m: [[0, 0, 0.1]], radius_m: 0.02}\n"
+                        "      - {type: class, value: \"7\", anywhere: true}"));
   const std::vector<ObjectFeature>& features = base.types()[0]->features;
   REQUIRE(features.size() == 4);
   CHECK(features[0].key == FeatureKey{"keypoint", "rim"});
@@ -71,7 +71,7 @@ TEST_CASE("features of other detectors that are none are refused") {
   expect(key + ", points_m: [[0, 0]]", at + ".points_m[0]", {"3 numbers"});
   expect(key + ", near_m: [[0, 0, 0]], radius_m: 0", at + ".radius_m", {"found 0"});
   expect(key + ", size_m: 1, anywhere: true", at + ".size_m", {"unknown key"});
-  expect_type_refused("{name: a, " + kCube + ",\n     features: [7]}", at,
+  expect_type_refused("{name: a, " + kCubeShape + ",\n     features: [7]}", at,
                       {"found 7", "an object"});
   expect(key + ", anywhere: true}, {" + key + ", anywhere: true",
          "types.yaml:2: object_types[0].features[1]", {"color red", "features[0] once more"});
@@ -80,8 +80,8 @@ TEST_CASE("features of other detectors that are none are refused") {
 TEST_CASE("one marker may be on several types, but under one dictionary's name") {
   TemporaryFolder folder;
   const auto marked = [](const std::string& name, const std::string& marker) {
-    return type_of("{name: " + name + ", " + kCube + ",\n     features: [{type: aruco, " + marker +
-                   ", size_m: 0.04, face: +x}]}");
+    return type_text("{name: " + name + ", " + kCubeShape + ",\n     features: [{type: aruco, " +
+                     marker + ", size_m: 0.04, face: +x}]}");
   };
   const fs::path first = folder.write("1.yaml", marked("a", "dictionary: 4X4_50, value: 3"));
   const auto with = [&](const std::string& text) {

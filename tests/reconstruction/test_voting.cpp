@@ -9,7 +9,7 @@ namespace vantage::test {
 
 TEST_CASE("voting: exact corners give exact poses, whatever the boxes' turn") {
   Random random(11);
-  const std::vector<ObjectType> boxes{marked_box("cube", kCube, 0),
+  const std::vector<ObjectType> boxes{marked_box("cube", kCubeSize, 0),
                                       marked_box("brick", {0.1, 0.06, 0.04}, 10)};
   const MemoryKnowledgeBase knowledge(boxes);
   for (std::uint32_t s = 0; s < scene_count(12); ++s) {
@@ -31,7 +31,7 @@ TEST_CASE("voting: exact corners give exact poses, whatever the boxes' turn") {
 
 TEST_CASE("voting: instances of one type side by side are told apart") {
   Random random(12);
-  const MemoryKnowledgeBase knowledge({marked_box("cube", kCube, 0)});
+  const MemoryKnowledgeBase knowledge({marked_box("cube", kCubeSize, 0)});
   for (std::uint32_t s = 0; s < scene_count(8); ++s) {
     auto views = cameras_around(random, 4);
     std::vector<PlacedObject> objects;
@@ -54,7 +54,7 @@ TEST_CASE("voting: instances of one type side by side are told apart") {
 
 TEST_CASE("voting: as precise as multi-view PnP, also where every marker alone is vague") {
   Random random(15);
-  const MemoryKnowledgeBase knowledge({marked_box("cube", kCube, 0),
+  const MemoryKnowledgeBase knowledge({marked_box("cube", kCubeSize, 0),
                                        marked_box("brick", {0.1, 0.06, 0.04}, 10),
                                        marked_box("slab", {0.08, 0.08, 0.03}, 20)});
   const std::uint32_t scenes = scene_count(12);
@@ -84,7 +84,7 @@ TEST_CASE("voting: as precise as multi-view PnP, also where every marker alone i
 TEST_CASE("voting: where the table's lattice lies in the world makes no difference") {
   Random random(14);
   const MemoryKnowledgeBase knowledge(
-      {marked_box("cube", kCube, 0), marked_box("brick", {0.1, 0.06, 0.04}, 10)});
+      {marked_box("cube", kCubeSize, 0), marked_box("brick", {0.1, 0.06, 0.04}, 10)});
   for (std::uint32_t s = 0; s < scene_count(10); ++s) {
     auto views = cameras_around(random, 4);
     look_at(views, scattered(random, knowledge.types(), 6, 0.2),
@@ -106,7 +106,7 @@ TEST_CASE("voting: where the table's lattice lies in the world makes no differen
 
 TEST_CASE("voting: clutter with missing markers and 5 % wrong ids") {
   Random random(13);
-  const MemoryKnowledgeBase knowledge({marked_box("cube", kCube, 0),
+  const MemoryKnowledgeBase knowledge({marked_box("cube", kCubeSize, 0),
                                        marked_box("brick", {0.1, 0.06, 0.04}, 10),
                                        marked_box("slab", {0.08, 0.08, 0.03}, 20)});
   std::size_t there = 0, found = 0, invented = 0;

@@ -18,7 +18,7 @@ const Pose kTurned = Pose::from_rotation(
 TEST_CASE("voting: a marker, a pose, a label and single points together, none of them enough") {
   // The same marker is on two types of two colours; seen from afar, it may be tilted two ways; the
   // points are but two.
-  ObjectType red = marked_box("red", kCube, 0, 1), blue = marked_box("blue", kCube, 0, 1);
+  ObjectType red = marked_box("red", kCubeSize, 0, 1), blue = marked_box("blue", kCubeSize, 0, 1);
   for (ObjectType* type : {&red, &blue}) {
     type->features.push_back(key_point("dot a", {0.02, 0.025, 0.02}));
     type->features.push_back(key_point("dot b", {-0.02, 0.025, -0.02}));
@@ -61,7 +61,7 @@ TEST_CASE("voting: a marker, a pose, a label and single points together, none of
 }
 
 TEST_CASE("voting: a label decides between types with the same marker") {
-  ObjectType red = marked_box("red", kCube, 0), blue = marked_box("blue", kCube, 0);
+  ObjectType red = marked_box("red", kCubeSize, 0), blue = marked_box("blue", kCubeSize, 0);
   red.features.push_back(label("color", "red"));
   blue.features.push_back(label("color", "blue"));
   const MemoryKnowledgeBase knowledge({red, blue});
@@ -104,7 +104,7 @@ TEST_CASE("voting: labels somewhere else, and at another part of the object, say
 TEST_CASE("voting: types with the same front are alternatives of the same probability") {
   // Thesis, chapter 6: "a front view of a cube or a long box".
   const MemoryKnowledgeBase knowledge(
-      {marked_box("cube", kCube, 0, 1), marked_box("long box", {0.05, 0.05, 0.05}, 0, 1)});
+      {marked_box("cube", kCubeSize, 0, 1), marked_box("long box", {0.05, 0.05, 0.05}, 0, 1)});
   ObjectType cube = *knowledge.types()[0];
   auto views = aimed({{0.6, 0.2, 0.2}, {0.6, -0.25, 0.2}, {0.6, 0.05, 0.4}});
   look_at(views, {{knowledge.types()[0], Pose()}}, {.sigma_px = 0.1}, *std::make_unique<Random>(2));
@@ -122,7 +122,7 @@ TEST_CASE("voting: types with the same front are alternatives of the same probab
 TEST_CASE("voting: what a type does not carry, where it would have its surface, removes it") {
   // Both have marker 0 in front; marker 1, at its side, is only on one of them.
   const MemoryKnowledgeBase knowledge(
-      {marked_box("plain", kCube, 0, 1), marked_box("marked", kCube, 0, 4)});
+      {marked_box("plain", kCubeSize, 0, 1), marked_box("marked", kCubeSize, 0, 4)});
   auto views = aimed({{0.5, 0.4, 0.3}});
   look_at(views, {{knowledge.types()[1], Pose()}}, {.sigma_px = 0.05},
           *std::make_unique<Random>(3));
@@ -136,7 +136,7 @@ TEST_CASE("voting: what a type does not carry, where it would have its surface, 
   // Labels that nothing carries there make what one marker suggests doubtful, and then remove it.
   ObjectType other = marked_box("other", {0.02, 0.02, 0.02}, 50);
   other.features.push_back(label("color", "green"));
-  const MemoryKnowledgeBase two({marked_box("plain", kCube, 0, 1), other});
+  const MemoryKnowledgeBase two({marked_box("plain", kCubeSize, 0, 1), other});
   auto one = aimed({{0.6, 0.2, 0.2}});
   see_points(one[0], *two.types()[0], 0, Pose());
   const Reconstruction sure = reconstruct_voting(one, two);
@@ -156,7 +156,7 @@ TEST_CASE("voting: what a type does not carry, where it would have its surface, 
 TEST_CASE(
     "voting: a single marker from the front may be tilted two ways, and more views settle it") {
   Random random(4);
-  const MemoryKnowledgeBase knowledge({marked_box("cube", kCube, 0, 1)});
+  const MemoryKnowledgeBase knowledge({marked_box("cube", kCubeSize, 0, 1)});
   std::size_t ambiguous = 0, right = 0;
   const std::uint32_t scenes = scene_count(20);
   for (std::uint32_t s = 0; s < scenes; ++s) {

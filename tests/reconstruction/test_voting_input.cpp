@@ -9,7 +9,7 @@
 namespace vantage::test {
 
 TEST_CASE("voting: what cannot be used has its reason, and nothing is invented") {
-  const ObjectType cube = marked_box("cube", kCube, 0);
+  const ObjectType cube = marked_box("cube", kCubeSize, 0);
   const MemoryKnowledgeBase knowledge({cube});
   const double nan = std::numeric_limits<double>::quiet_NaN();
   auto views = aimed({{0.5, 0.2, 0.3}, {0.4, -0.3, 0.3}});
@@ -62,7 +62,7 @@ TEST_CASE("voting: bounds that are none are refused") {
 
 TEST_CASE("voting: stops when it is told to, with what it has") {
   Random random(7);
-  const MemoryKnowledgeBase knowledge({marked_box("cube", kCube, 0)});
+  const MemoryKnowledgeBase knowledge({marked_box("cube", kCubeSize, 0)});
   auto views = cameras_around(random, 3);
   look_at(views, scattered(random, knowledge.types(), 4, 0.15), {}, random);
   const StopToken stop;
@@ -75,8 +75,9 @@ TEST_CASE("voting: stops when it is told to, with what it has") {
 
 TEST_CASE("voting: the same to the bit at any number of threads") {
   Random random(8);
-  const MemoryKnowledgeBase knowledge(
-      {marked_box("cube", kCube, 0), marked_box("twin", kCube, 0), marked_box("brick", kCube, 10)});
+  const MemoryKnowledgeBase knowledge({marked_box("cube", kCubeSize, 0),
+                                       marked_box("twin", kCubeSize, 0),
+                                       marked_box("brick", kCubeSize, 10)});
   auto views = cameras_around(random, 6);
   look_at(views, scattered(random, knowledge.types(), 8, 0.2), {.wrong_id = 0.05}, random);
   const auto with_threads = [&](std::size_t threads) {

@@ -14,7 +14,7 @@
 
 namespace vantage::test {
 
-inline const Eigen::Vector3d kCube(0.05, 0.05, 0.05);
+inline const Eigen::Vector3d kCubeSize(0.05, 0.05, 0.05);
 
 inline std::vector<CameraView> aimed(const std::vector<Eigen::Vector3d>& eyes,
                                      const Eigen::Vector3d& target = {0, 0, 0}) {

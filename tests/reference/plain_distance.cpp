@@ -14,19 +14,14 @@ namespace {
 
 using Eigen::Vector3d;
 
-double to_segment(const Vector3d& p, const Vector3d& a, const Vector3d& b) {
-  const double t = std::clamp((p - a).dot(b - a) / (b - a).squaredNorm(), 0.0, 1.0);
-  return (p - (a + t * (b - a))).norm();
-}
-
 // The distance to a segment is convex along the other one: thirds are cut off its worse end.
 double between_segments(Vector3d a, Vector3d b, const Vector3d& c, const Vector3d& d) {
   for (int i = 0; i < 80; ++i) {
     const Vector3d left = (2 * a + b) / 3, right = (a + 2 * b) / 3;
-    (to_segment(left, c, d) < to_segment(right, c, d) ? b : a) =
-        to_segment(left, c, d) < to_segment(right, c, d) ? right : left;
+    (segment_distance(left, c, d) < segment_distance(right, c, d) ? b : a) =
+        segment_distance(left, c, d) < segment_distance(right, c, d) ? right : left;
   }
-  return to_segment((a + b) / 2, c, d);
+  return segment_distance((a + b) / 2, c, d);
 }
 
 bool edge_crosses(const WorldTriangle& edges, const WorldTriangle& face) {
@@ -68,6 +63,11 @@ std::vector<Bounded> in_world(const TriangleMesh& mesh, const Pose& T_world_mesh
 }
 
 }  // namespace
+
+double segment_distance(const Vector3d& point, const Vector3d& a, const Vector3d& b) {
+  const double t = std::clamp((point - a).dot(b - a) / (b - a).squaredNorm(), 0.0, 1.0);
+  return (point - (a + t * (b - a))).norm();
+}
 
 double triangle_distance(const WorldTriangle& a, const WorldTriangle& b) {
   if (edge_crosses(a, b) || edge_crosses(b, a)) return 0;

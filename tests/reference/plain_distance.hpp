@@ -8,6 +8,10 @@
 
 namespace vantage::test {
 
+/// The distance of a point from the segment from `a` to `b`.
+double segment_distance(const Eigen::Vector3d& point, const Eigen::Vector3d& a,
+                        const Eigen::Vector3d& b);
+
 /// The least distance of two triangles, 0 where they cross.
 double triangle_distance(const WorldTriangle& a, const WorldTriangle& b);
 

@@ -3,36 +3,29 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <numbers>
 
 #include "reference/plain_distance.hpp"
+#include "support/non_finite.hpp"
 
 namespace vantage::test {
 namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kInfinite = std::numeric_limits<double>::infinity();
-
-double to_segment(const Vector3d& p, const Vector3d& a, const Vector3d& b) {
-  const double t = std::clamp((p - a).dot(b - a) / (b - a).squaredNorm(), 0.0, 1.0);
-  return (p - (a + t * (b - a))).norm();
-}
-
 // That of the plane where the foot is on the triangle, that of the nearest edge elsewhere.
 double to_triangle(const Vector3d& p, const WorldTriangle& triangle) {
   const auto& c = triangle.corners;
   const Vector3d normal = (c[1] - c[0]).cross(c[2] - c[0]).normalized();
   if (triangle.cross(p, normal).margin_m >= 0) return triangle.distance_to_plane(p);
-  return std::min(
-      {to_segment(p, c[0], c[1]), to_segment(p, c[1], c[2]), to_segment(p, c[2], c[0])});
+  return std::min({segment_distance(p, c[0], c[1]), segment_distance(p, c[1], c[2]),
+                   segment_distance(p, c[2], c[0])});
 }
 
 template <class Distance>
 double least(const ReferenceScene& scene, ObjectId object, const Distance& distance) {
-  double result = kInfinite;
+  double result = kInfinity;
   for (const WorldTriangle& triangle : scene.triangles()) {
     if (object == kNoObject || triangle.object == object) {
       result = std::min(result, distance(triangle));
@@ -55,7 +48,7 @@ double nearest_surface(const ReferenceScene& scene, const Box& box, const Pose& 
   const Pose T_box_world = T_world_box.inverse();
   return least(scene, object, [&](const WorldTriangle& triangle) {
     if (box.contains(T_box_world * triangle.corners[0])) return 0.0;
-    double nearest = kInfinite;
+    double nearest = kInfinity;
     for (const WorldTriangle& face : faces.triangles()) {
       nearest = std::min(nearest, triangle_distance(face, triangle));
     }

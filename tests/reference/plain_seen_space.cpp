@@ -3,12 +3,12 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <limits>
+
+#include "support/non_finite.hpp"
 
 namespace vantage::test {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kSame = 2e-5;  // what is that close in t may change places in float
 
 /// The plane through three points, with `inside` on its positive side.

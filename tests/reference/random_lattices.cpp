@@ -49,7 +49,7 @@ DepthLattice random_lattice(Random& random) {
   return lattice;
 }
 
-Box random_box(Random& random) {
+Box random_lattice_box(Random& random) {
   const Eigen::Vector3d half(random.uniform(0.1, 0.4), random.uniform(0.1, 0.4),
                              random.uniform(0.1, 0.4));
   const Eigen::Vector3d centre = random.in_cube(0.1);
@@ -60,7 +60,7 @@ Box random_box(Random& random) {
 
 RandomLattices random_lattices(std::uint32_t seed) {
   Random random(seed);
-  RandomLattices scene{random_box(random), {}};
+  RandomLattices scene{random_lattice_box(random), {}};
   for (std::uint32_t i = 0, count = random.below(7); i < count; ++i) {
     scene.lattices.push_back(random_lattice(random));
     DepthLattice& last = scene.lattices.back();

@@ -5,7 +5,7 @@
 namespace vantage::test {
 namespace {
 
-std::shared_ptr<const TriangleMesh> random_box(Random& random) {
+std::shared_ptr<const TriangleMesh> random_box_mesh(Random& random) {
   const Eigen::Vector3d half(random.uniform(0.02, 0.06), random.uniform(0.02, 0.06),
                              random.uniform(0.02, 0.06));
   return std::make_shared<const TriangleMesh>(TriangleMesh::from_box(Box(-half, half)));
@@ -36,7 +36,8 @@ WorldModel random_workcell(std::uint32_t seed, bool all_measure) {
   WorldModel world;
   const std::uint32_t boxes = 1 + random.below(4);
   for (std::uint32_t i = 0; i < boxes; ++i) {
-    world.objects.push_back({"box " + std::to_string(i), random_box(random), random_pose(random)});
+    world.objects.push_back(
+        {"box " + std::to_string(i), random_box_mesh(random), random_pose(random)});
   }
   if (random.below(2) == 0) {
     const auto sphere = std::make_shared<const TriangleMesh>(icosphere(0.05, 2));
@@ -50,7 +51,7 @@ WorldModel random_workcell(std::uint32_t seed, bool all_measure) {
   for (const KnownObject& object : world.static_structures) {
     truth.add_mesh(object.mesh->transformed(object.T_world_object));
   }
-  truth.add_mesh(random_box(random)->transformed(random_pose(random)));
+  truth.add_mesh(random_box_mesh(random)->transformed(random_pose(random)));
   truth.add_box(Box({-1, -1, -0.1}, {1, 1, 0}));
   const std::shared_ptr<const Scene> scene = truth.build();
 

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "reference/for_each_voxel.hpp"
 #include "vantage/raycore/camera.hpp"
 #include "vantage/volume/grid_geometry.hpp"
 #include "vantage/volume/state_grid.hpp"
@@ -37,13 +38,5 @@ ThesisVolume thesis_volume(const GridGeometry& geometry, const std::vector<char>
 
 /// Frees, all at once, every shadow voxel with fewer than 5 shadow voxels among its 6 neighbours.
 void thesis_anti_alias(ThesisVolume& volume);
-
-/// Calls `visit(voxel)` in the order of the labels.
-template <class Visit>
-void for_each_voxel(const GridGeometry& geometry, const Visit& visit) {
-  for (int i = 0; i < geometry.size().x(); ++i)
-    for (int j = 0; j < geometry.size().y(); ++j)
-      for (int k = 0; k < geometry.size().z(); ++k) visit(Eigen::Vector3i(i, j, k));
-}
 
 }  // namespace vantage::test

@@ -6,7 +6,7 @@
 namespace vantage {
 namespace {
 
-constexpr Intrinsics kCamera{640, 480, 600, 600, 319.5, 239.5};
+constexpr Intrinsics kTruthCamera{640, 480, 600, 600, 319.5, 239.5};
 
 SimulatedBody body(const char* name, const Box& box) {
   return {
@@ -14,7 +14,7 @@ SimulatedBody body(const char* name, const Box& box) {
 }
 
 PinholeCamera camera_at(const Eigen::Vector3d& eye, const Eigen::Vector3d& target) {
-  return PinholeCamera(kCamera, Pose::looking_at(eye, target), {0.1, 5});
+  return PinholeCamera(kTruthCamera, Pose::looking_at(eye, target), {0.1, 5});
 }
 
 // A plate stands upright in the middle of the work area, so that a camera far off on one side sees

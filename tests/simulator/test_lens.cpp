@@ -9,7 +9,7 @@
 namespace vantage::test {
 namespace {
 
-const Intrinsics kIntrinsics{640, 480, 615, 611, 322.3, 238.1};
+const Intrinsics kLensIntrinsics{640, 480, 615, 611, 322.3, 238.1};
 
 const Distortion kDistortions[] = {{0.1, -0.05, 0.001, -0.002, 0.01},
                                    {-0.28, 0.09, 0, 0, 0},
@@ -31,18 +31,18 @@ cv::Point2d projected(const Eigen::Vector3d& p, const Intrinsics& k, const Disto
 
 TEST_CASE("pixels look at the points that OpenCV projects onto them") {
   for (const Distortion& distortion : kDistortions) {
-    const Lens lens(kIntrinsics, distortion);
+    const Lens lens(kLensIntrinsics, distortion);
     for (int v = 0; v < 480; v += 17) {
       Eigen::Vector2d guess = Eigen::Vector2d::Zero();
       for (int u = 0; u < 640; u += 7) {
         const PixelSight sight = lens.sight(u, v, guess);
         guess = sight.xy;
-        const cv::Point2d at = projected(1.7 * sight.xy.homogeneous(), kIntrinsics, distortion);
+        const cv::Point2d at = projected(1.7 * sight.xy.homogeneous(), kLensIntrinsics, distortion);
         CHECK(std::abs(at.x - u) < 1e-6);
         CHECK(std::abs(at.y - v) < 1e-6);
         // The derivatives take a step of half a pixel to a thousandth of one.
         const Eigen::Vector2d moved = sight.xy + sight.per_pixel * Eigen::Vector2d(0.5, -0.5);
-        const cv::Point2d beside = projected(moved.homogeneous(), kIntrinsics, distortion);
+        const cv::Point2d beside = projected(moved.homogeneous(), kLensIntrinsics, distortion);
         CHECK(std::abs(beside.x - u - 0.5) < 1e-3);
         CHECK(std::abs(beside.y - v + 0.5) < 1e-3);
       }
@@ -64,10 +64,10 @@ TEST_CASE("a photograph has things where OpenCV projects them, with a lens and w
   for (const Distortion& distortion : {Distortion{}, kDistortions[0], kDistortions[1]}) {
     ColorSensor sensor;
     sensor.distortion = distortion;
-    const PinholeCamera camera(kIntrinsics, T_world_cam);
+    const PinholeCamera camera(kLensIntrinsics, T_world_cam);
     const ColorImage image = *simulate_color(scene, even_light(), camera, sensor, 1);
     for (const Eigen::Vector3d& centre : centres) {
-      const cv::Point2d at = projected(T_world_cam.inverse() * centre, kIntrinsics, distortion);
+      const cv::Point2d at = projected(T_world_cam.inverse() * centre, kLensIntrinsics, distortion);
       double weight = 0, u_sum = 0, v_sum = 0;
       for (int v = int(at.y) - 12; v <= int(at.y) + 12; ++v) {
         for (int u = int(at.x) - 12; u <= int(at.x) + 12; ++u) {
@@ -84,12 +84,13 @@ TEST_CASE("a photograph has things where OpenCV projects them, with a lens and w
 
 TEST_CASE("lenses that fold the image over, and coefficients that are no numbers, are refused") {
   const auto refused = [](const Distortion& distortion, const char* message) {
-    expect_bad_input("distortion", message, [&] { Lens(kIntrinsics, distortion); });
+    expect_bad_input("distortion", message, [&] { Lens(kLensIntrinsics, distortion); });
     ColorSensor sensor;
     sensor.distortion = distortion;
     const SimulatedScene scene({picture_body(1, 1, ColorImage(1, 1))});
-    expect_bad_input("distortion", message,
-                     [&] { simulate_color(scene, {}, PinholeCamera(kIntrinsics, {}), sensor, 1); });
+    expect_bad_input("distortion", message, [&] {
+      simulate_color(scene, {}, PinholeCamera(kLensIntrinsics, {}), sensor, 1);
+    });
   };
   refused({-0.6, 0, 0, 0, 0},
           "k1, k2, p1, p2, k3 to k6 = -0.6, 0, 0, 0, 0, 0, 0, 0 the image folds over");

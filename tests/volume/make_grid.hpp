@@ -3,6 +3,7 @@
 #include <functional>
 #include <memory>
 
+#include "reference/for_each_voxel.hpp"
 #include "vantage/volume/state_grid.hpp"
 
 namespace vantage::test {
@@ -36,12 +37,5 @@ GridGeometry geometry_of(int nx, int ny, int nz);
 
 /// A random state for every voxel: mostly uniform blocks, with free, noisy and mixed ones between.
 std::function<MadeVoxel(const Eigen::Vector3i&)> random_voxels(std::uint32_t seed);
-
-template <class Visit>
-void for_each_voxel(const GridGeometry& geometry, const Visit& visit) {
-  for (int i = 0; i < geometry.size().x(); ++i)
-    for (int j = 0; j < geometry.size().y(); ++j)
-      for (int k = 0; k < geometry.size().z(); ++k) visit(Eigen::Vector3i(i, j, k));
-}
 
 }  // namespace vantage::test

@@ -1,5 +1,10 @@
 #pragma once
 
+#include <algorithm>
+#include <cstdint>
+#include <map>
+#include <utility>
+
 #include "vantage/raycore/triangle_mesh.hpp"
 
 namespace vantage::test {
@@ -25,6 +30,34 @@ inline double area_m2(const TriangleMesh& mesh) {
     sum += (b - a).cross(c - a).norm() / 2;
   }
   return sum;
+}
+
+/// How often each directed edge is used, less how often the opposite one is.
+struct EdgeUse {
+  int balance = 0;
+  int count = 0;
+};
+
+inline std::map<std::pair<std::uint32_t, std::uint32_t>, EdgeUse> edges_of(
+    const TriangleMesh& mesh) {
+  std::map<std::pair<std::uint32_t, std::uint32_t>, EdgeUse> edges;
+  for (const Triangle& t : mesh.triangles()) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      const std::uint32_t from = t[c], to = t[(c + 1) % 3];
+      EdgeUse& use = edges[std::minmax(from, to)];
+      use.balance += from < to ? 1 : -1;
+      ++use.count;
+    }
+  }
+  return edges;
+}
+
+/// Whether every edge has as many faces on one side as on the other.
+inline bool closed(const TriangleMesh& mesh) {
+  for (const auto& [edge, use] : edges_of(mesh)) {
+    if (use.balance != 0) return false;
+  }
+  return !mesh.empty();
 }
 
 }  // namespace vantage::test

@@ -11,13 +11,13 @@ namespace vantage {
 namespace {
 
 /// Voxels compared so far, over all scenes.
-struct Tally {
+struct OracleTally {
   std::size_t compared = 0, close_calls = 0, unseen = 0;
   std::array<std::size_t, 4> states{};
 };
 
 /// Compares one voxel in `every`.
-void compare_with_oracle(const test::BoxWorld& world, int every, Tally& tally) {
+void compare_with_oracle(const test::BoxWorld& world, int every, OracleTally& tally) {
   const test::BoxOracle oracle(world.boxes, world.cameras);
   const auto grid = classify(world.model(), world.geometry);
   int next = 0;
@@ -38,7 +38,7 @@ void compare_with_oracle(const test::BoxWorld& world, int every, Tally& tally) {
   });
 }
 
-void expect_enough(const Tally& tally) {
+void expect_enough(const OracleTally& tally) {
   MESSAGE(tally.compared << " voxels compared, " << tally.close_calls << " too close to call");
   CHECK(tally.close_calls * 50 < tally.compared);
   CHECK(tally.unseen >= test::enough(300));
@@ -50,7 +50,7 @@ void expect_enough(const Tally& tally) {
 }  // namespace
 
 TEST_CASE("mesh mode equals the closed form for boxes but for centres close to a silhouette") {
-  Tally tally;
+  OracleTally tally;
   for (std::uint32_t seed = 100; seed < 100 + test::scene_count(40); ++seed) {
     CAPTURE(seed);
     compare_with_oracle(test::random_boxes(seed), 1, tally);
@@ -60,7 +60,7 @@ TEST_CASE("mesh mode equals the closed form for boxes but for centres close to a
 
 // Finer than the objects by far, so that most blocks of 8³ voxels are decided at once.
 TEST_CASE("mesh mode equals the closed form where voxels are fine") {
-  Tally tally;
+  OracleTally tally;
   for (std::uint32_t seed = 140; seed < 140 + test::scene_count(8); ++seed) {
     CAPTURE(seed);
     compare_with_oracle(test::random_boxes(seed, 0.003), 3, tally);
@@ -69,7 +69,7 @@ TEST_CASE("mesh mode equals the closed form where voxels are fine") {
 }
 
 TEST_CASE("mesh mode equals the closed form for thin rods and plates in fine voxels") {
-  Tally tally;
+  OracleTally tally;
   for (std::uint32_t seed = 150; seed < 150 + test::scene_count(8); ++seed) {
     CAPTURE(seed);
     compare_with_oracle(test::random_rods(seed, 0.003), 3, tally);
@@ -78,7 +78,7 @@ TEST_CASE("mesh mode equals the closed form for thin rods and plates in fine vox
 }
 
 TEST_CASE("mesh mode equals the closed form for lines of sight along axes and past aligned faces") {
-  Tally tally;
+  OracleTally tally;
   for (std::uint32_t seed = 0; seed < test::scene_count(60); ++seed) {
     CAPTURE(seed);
     compare_with_oracle(test::random_lattice_boxes(seed), 1, tally);

@@ -3,7 +3,6 @@
 #include <tbb/task_arena.h>
 
 #include <cmath>
-#include <limits>
 
 #include "reference/noisy_depth.hpp"
 #include "reference/plain_carve.hpp"
@@ -19,8 +18,6 @@ namespace vantage {
 namespace {
 
 using test::Random;
-
-const float kUnknown = std::numeric_limits<float>::quiet_NaN();
 
 std::vector<float> random_axis(Random& random, double first, double length) {
   std::vector<float> axis{float(first)};
@@ -45,7 +42,7 @@ DepthLattice random_lattice(Random& random, const Box& area) {
   const double roughness = random.below(2) == 0 ? 0.02 : 0.3;
   for (std::size_t n = 0; n < lattice.width() * lattice.height(); ++n) {
     const double depth = std::max(distance + random.uniform(-1, 1) * roughness, 0.01);
-    lattice.depth.push_back(random.below(8) == 0 ? kUnknown : float(depth));
+    lattice.depth.push_back(random.below(8) == 0 ? DepthImage::kUnknown : float(depth));
   }
   return lattice;
 }
@@ -73,13 +70,13 @@ std::vector<DepthLattice> measured_lattices(const WorldModel& world, Random& ran
   return lattices;
 }
 
-struct Tally {
+struct CarveTally {
   std::size_t voxels = 0, close_calls = 0, differences = 0, free = 0, shadow = 0, unseen = 0;
 };
 
 /// Compares a carved grid with its twin, voxel by voxel; known objects are `classify`'s.
 void tally_up(const StateGrid& grid, std::span<const DepthLattice> lattices,
-              const StateGrid& objects_alone, Tally& tally) {
+              const StateGrid& objects_alone, CarveTally& tally) {
   test::for_each_voxel(grid.geometry(), [&](const Eigen::Vector3i& voxel) {
     const Eigen::Vector3d centre = grid.geometry().centre(voxel);
     const test::PlainSeen seen = test::plain_seen(lattices, centre);
@@ -101,7 +98,7 @@ void tally_up(const StateGrid& grid, std::span<const DepthLattice> lattices,
   });
 }
 
-void expect_agreement(const Tally& tally) {
+void expect_agreement(const CarveTally& tally) {
   CAPTURE(tally.voxels);
   CHECK(tally.differences == 0);
   CHECK(tally.close_calls * 10000 < tally.voxels);
@@ -119,7 +116,7 @@ WorldModel without_cameras(WorldModel world) {
 }  // namespace
 
 TEST_CASE("carving is asking every lattice about every voxel") {
-  Tally tally;
+  CarveTally tally;
   for (std::uint32_t seed = 0; seed < test::scene_count(30); ++seed) {
     CAPTURE(seed);
     Random random(seed);
@@ -133,7 +130,7 @@ TEST_CASE("carving is asking every lattice about every voxel") {
 }
 
 TEST_CASE("carving is asking, with lattices of what cameras measured") {
-  Tally tally;
+  CarveTally tally;
   for (std::uint32_t seed = 0; seed < test::scene_count(12); ++seed) {
     CAPTURE(seed);
     Random random(1000 + seed);
@@ -146,7 +143,7 @@ TEST_CASE("carving is asking, with lattices of what cameras measured") {
 }
 
 TEST_CASE("carving is asking, with lattices far wider than any image") {
-  Tally tally;
+  CarveTally tally;
   for (std::uint32_t seed = 0; seed < test::scene_count(6); ++seed) {
     CAPTURE(seed);
     Random random(seed);
@@ -167,7 +164,7 @@ TEST_CASE("carving is asking, with lattices far wider than any image") {
 
 TEST_CASE("carving a far away work area loses no precision") {
   Random random(5);
-  Tally tally;
+  CarveTally tally;
   const Eigen::Vector3d away(1000, -2000, 500);
   for (std::uint32_t seed = 0; seed < test::scene_count(6); ++seed) {
     const WorldModel world = without_cameras(test::random_workcell(seed));

@@ -2,6 +2,7 @@
 #include <tbb/global_control.h>
 #include <tbb/task_arena.h>
 
+#include "reference/for_each_voxel.hpp"
 #include "reference/plain_classify.hpp"
 #include "reference/random_workcell.hpp"
 #include "support/expect_error.hpp"
@@ -19,15 +20,8 @@ KnownObject box(const Eigen::Vector3d& min, const Eigen::Vector3d& max, const st
 }
 
 /// 1 cm voxels, 20 × 20 × 20, the floor's centre at the origin.
-GridGeometry small_grid() {
+GridGeometry cube_grid() {
   return GridGeometry::covering(Box({-0.1, -0.1, 0}, {0.1, 0.1, 0.2}), 0.01);
-}
-
-template <class Visit>
-void for_each_voxel(const GridGeometry& geometry, const Visit& visit) {
-  for (int i = 0; i < geometry.size().x(); ++i)
-    for (int j = 0; j < geometry.size().y(); ++j)
-      for (int k = 0; k < geometry.size().z(); ++k) visit(Eigen::Vector3i(i, j, k));
 }
 
 }  // namespace
@@ -43,7 +37,7 @@ TEST_CASE("classify equals the plain algorithm on random workcells") {
         GridGeometry::covering(test::random_workcell_area(), voxel_size_m);
     const auto grid = classify(world, geometry);
     const test::PlainClassifier plain(world, geometry);
-    for_each_voxel(geometry, [&](const Eigen::Vector3i& voxel) {
+    test::for_each_voxel(geometry, [&](const Eigen::Vector3i& voxel) {
       const test::PlainState expected = plain.classify(voxel);
       if (expected.close_call) {
         ++close_calls;
@@ -67,7 +61,7 @@ TEST_CASE("a camera without depth: free before and beside a box, shadow behind i
   WorldModel world;
   world.objects.push_back(box({-0.03, -0.03, 0.06}, {0.03, 0.03, 0.14}, "box"));
   world.cameras.push_back({"front", kCamera, nullptr});
-  const auto grid = classify(world, small_grid());
+  const auto grid = classify(world, cube_grid());
   CHECK(grid->at({10, 2, 10}) == VoxelState::free);
   CHECK(grid->at({10, 10, 10}) == VoxelState::occupied);
   CHECK_FALSE(grid->measured({10, 10, 10}));
@@ -83,7 +77,7 @@ TEST_CASE(
   for (int v = 0; v < 48; ++v)
     for (int u = 0; u < 40; ++u) depth->set(u, v, 0.5f);  // unknown on the right
   world.cameras.push_back({"front", kCamera, depth});
-  const auto grid = classify(world, small_grid());
+  const auto grid = classify(world, cube_grid());
   CHECK(grid->at({10, 5, 10}) == VoxelState::free);
   // The wall is the border between the rows 9 and 10; points on a border are in the row above.
   CHECK(grid->at({10, 10, 10}) == VoxelState::occupied);
@@ -98,7 +92,7 @@ TEST_CASE("depth out of the sensor's range proves nothing") {
     world.cameras.push_back(
         {"front", kCamera,
          std::make_shared<DepthImage>(64, 48, std::vector<float>(64 * 48, metres))});
-    const auto grid = classify(world, small_grid());
+    const auto grid = classify(world, cube_grid());
     CHECK(grid->count(VoxelState::shadow) == grid->geometry().voxel_count());
   }
 }
@@ -112,10 +106,10 @@ TEST_CASE("what one camera sees through is free, whatever another one measured t
   WorldModel world;
   world.cameras.push_back({"front", kCamera, wall_at(0.5f)});
   world.cameras.push_back({"side", from_side, wall_at(1.0f)});
-  const auto grid = classify(world, small_grid());
+  const auto grid = classify(world, cube_grid());
   CHECK(grid->at({10, 10, 10}) == VoxelState::free);
   world.cameras.pop_back();
-  CHECK(classify(world, small_grid())->at({10, 10, 10}) == VoxelState::occupied);
+  CHECK(classify(world, cube_grid())->at({10, 10, 10}) == VoxelState::occupied);
 }
 
 TEST_CASE("a slanted surface has no holes: no ray from behind it slips through") {
@@ -126,7 +120,7 @@ TEST_CASE("a slanted surface has no holes: no ray from behind it slips through")
   WorldModel world;
   world.cameras.push_back(
       {"front", camera, std::make_shared<DepthImage>(truth.build()->render_depth(camera))});
-  const auto grid = classify(world, small_grid());
+  const auto grid = classify(world, cube_grid());
   const auto occluders = occluder_scene(world, *grid);
   std::size_t rays = 0;
   for (float x = -0.045f; x < 0.05f; x += 0.01f) {
@@ -142,8 +136,9 @@ TEST_CASE("the three states fill the work area, and the counts say so") {
   const WorldModel world = test::random_workcell(3);
   const auto grid = classify(world, GridGeometry::covering(test::random_workcell_area(), 0.01));
   std::array<std::uint64_t, 4> counts{};
-  for_each_voxel(grid->geometry(),
-                 [&](const Eigen::Vector3i& voxel) { ++counts[std::size_t(grid->at(voxel))]; });
+  test::for_each_voxel(grid->geometry(), [&](const Eigen::Vector3i& voxel) {
+    ++counts[std::size_t(grid->at(voxel))];
+  });
   for (int state = 0; state < 4; ++state) {
     CHECK(grid->count(VoxelState(state)) == counts[std::size_t(state)]);
   }
@@ -160,7 +155,7 @@ TEST_CASE("classify gives the same at 1, 2, 3 and 8 threads") {
     const auto grid = arena.execute([&] { return classify(world, geometry); });
     if (first == nullptr) first = grid;
     bool same = true;
-    for_each_voxel(geometry, [&](const Eigen::Vector3i& voxel) {
+    test::for_each_voxel(geometry, [&](const Eigen::Vector3i& voxel) {
       same &=
           grid->at(voxel) == first->at(voxel) && grid->measured(voxel) == first->measured(voxel);
     });
@@ -173,13 +168,13 @@ TEST_CASE("classify stops when it is told to, after it has checked its input") {
   WorldModel world = test::random_workcell(1);
   const StopToken stop;
   stop.cancel();
-  CHECK(classify(world, small_grid(), {}, stop) == nullptr);
+  CHECK(classify(world, cube_grid(), {}, stop) == nullptr);
   world.objects.push_back({"ghost", nullptr, {}});
   test::expect_bad_input("object ghost", "no mesh",
-                         [&] { classify(world, small_grid(), {}, stop); });
+                         [&] { classify(world, cube_grid(), {}, stop); });
   world.objects.pop_back();
   world.cameras.push_back({"wrong", kCamera, std::make_shared<DepthImage>(3, 4)});
-  test::expect_bad_input("camera wrong", "3×4", [&] { classify(world, small_grid(), {}, stop); });
+  test::expect_bad_input("camera wrong", "3×4", [&] { classify(world, cube_grid(), {}, stop); });
 }
 
 }  // namespace vantage

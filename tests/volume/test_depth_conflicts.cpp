@@ -8,16 +8,10 @@
 #include "reference/thesis_volume.hpp"
 #include "vantage/raycore/scene_builder.hpp"
 #include "vantage/volume/classify.hpp"
+#include "volume/small_grid.hpp"
 
 namespace vantage {
 namespace {
-
-const PinholeCamera kFront({160, 120, 150, 150, 79.5, 59.5},
-                           Pose::looking_at({0, -0.5, 0.3}, {0, 0, 0.08}), {0.1, 2});
-
-GridGeometry small_grid() {
-  return GridGeometry::covering(Box({-0.12, -0.12, 0}, {0.12, 0.12, 0.2}), 0.01);
-}
 
 /// Its faces lie on borders of voxels, so that no centre is near its silhouette.
 test::TurnedBox aligned_box(const Eigen::Vector3d& centre) {
@@ -34,8 +28,8 @@ std::shared_ptr<const DepthImage> measured(const std::vector<test::TurnedBox>& b
   truth.add_box(Box({-2, -2, -0.1}, {2, 2, 0}));
   truth.add_box(Box({-2, 0.6, -0.1}, {2, 0.7, 2}));
   const auto scene = truth.build();
-  if (noise != nullptr) return test::noisy_depth(*scene, kFront, *noise);
-  return std::make_shared<const DepthImage>(scene->render_depth(kFront));
+  if (noise != nullptr) return test::noisy_depth(*scene, test::kFront, *noise);
+  return std::make_shared<const DepthImage>(scene->render_depth(test::kFront));
 }
 
 }  // namespace
@@ -51,8 +45,8 @@ TEST_CASE("a wrong pose shows: as many voxels in conflict as depth sees through,
                                    Pose::from_translation({0.06, -0.02, 0.1}) * random.pose(0.02)};
     WorldModel world;
     world.objects = {test::known_box("right", right), test::known_box("wrong", believed)};
-    world.cameras.push_back({"front", kFront, measured({right, aligned_box(truth)})});
-    const GridGeometry geometry = small_grid();
+    world.cameras.push_back({"front", test::kFront, measured({right, aligned_box(truth)})});
+    const GridGeometry geometry = test::small_grid();
     const auto grid = classify(world, geometry);
 
     const test::PlainClassifier plain(world, geometry);
@@ -82,16 +76,16 @@ TEST_CASE("a correct pose is in no conflict, with clean depth and with noisy dep
   for (test::Random* noise : {static_cast<test::Random*>(nullptr), &random}) {
     WorldModel world;
     world.static_structures = {test::known_box("box", box)};
-    world.cameras.push_back({"front", kFront, measured({box}, noise)});
-    const auto grid = classify(world, small_grid());
+    world.cameras.push_back({"front", test::kFront, measured({box}, noise)});
+    const auto grid = classify(world, test::small_grid());
     CHECK(grid->report().conflicts.empty());
     CHECK(grid->report().warnings.empty());
   }
   // The measuring, not the modelling, is at work here: without the box all of it is seen through.
   WorldModel world;
   world.static_structures = {test::known_box("box", box)};
-  world.cameras.push_back({"front", kFront, measured({})});
-  const auto grid = classify(world, small_grid());
+  world.cameras.push_back({"front", test::kFront, measured({})});
+  const auto grid = classify(world, test::small_grid());
   REQUIRE(grid->report().conflicts.size() == 1);
   CHECK(grid->report().conflicts[0].voxels == grid->report().conflicts[0].of_voxels);
   CHECK(grid->report().conflicts[0].of_voxels == 6 * 4 * 8);
@@ -102,8 +96,8 @@ TEST_CASE("conflicts are listed in the order of the world model, objects first")
   world.static_structures = {test::known_box("z post", aligned_box({0.07, 0, 0.06}))};
   world.objects = {test::known_box("b", aligned_box({0, 0, 0.06})),
                    test::known_box("a", aligned_box({-0.07, 0, 0.06}))};
-  world.cameras.push_back({"front", kFront, measured({})});
-  const auto grid = classify(world, small_grid());
+  world.cameras.push_back({"front", test::kFront, measured({})});
+  const auto grid = classify(world, test::small_grid());
   std::vector<std::string> names;
   for (const ObjectConflict& conflict : grid->report().conflicts) names.push_back(conflict.object);
   CHECK(names == std::vector<std::string>{"b", "a", "z post"});

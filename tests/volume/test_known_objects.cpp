@@ -4,23 +4,17 @@
 #include "reference/thesis_volume.hpp"
 #include "vantage/volume/classify.hpp"
 #include "volume/same_grid.hpp"
+#include "volume/small_grid.hpp"
 #include "volume/volume_modes.hpp"
 
 namespace vantage {
 namespace {
 
-GridGeometry small_grid() {
-  return GridGeometry::covering(Box({-0.12, -0.12, 0}, {0.12, 0.12, 0.2}), 0.01);
-}
-
-const PinholeCamera kFront({160, 120, 150, 150, 79.5, 59.5},
-                           Pose::looking_at({0, -0.5, 0.3}, {0, 0, 0.08}), {0.1, 2});
-
 std::shared_ptr<const StateGrid> grid_of(const TriangleMesh& mesh, OccluderMode mode) {
   WorldModel world;
   world.objects.push_back({"object", std::make_shared<const TriangleMesh>(mesh), {}});
-  world.cameras.push_back({"front", kFront, nullptr});
-  return classify(world, small_grid(), test::volume_mode(mode, false));
+  world.cameras.push_back({"front", test::kFront, nullptr});
+  return classify(world, test::small_grid(), test::volume_mode(mode, false));
 }
 
 TriangleMesh turned_box() {

@@ -13,12 +13,13 @@
 namespace vantage {
 namespace {
 
-constexpr double kVoxel = 1.0 / 128;
+constexpr double kExactVoxel = 1.0 / 128;
 
 /// Whole voxels of 1/128 m.
-GridGeometry small_grid(const Eigen::Vector3d& shift = Eigen::Vector3d::Zero()) {
-  const Eigen::Vector3d low(-15 * kVoxel, -16 * kVoxel, 0), high(17 * kVoxel, 15 * kVoxel, 0.2);
-  return GridGeometry::covering(Box(low + shift, high + shift), kVoxel);
+GridGeometry exact_grid(const Eigen::Vector3d& shift = Eigen::Vector3d::Zero()) {
+  const Eigen::Vector3d low(-15 * kExactVoxel, -16 * kExactVoxel, 0),
+      high(17 * kExactVoxel, 15 * kExactVoxel, 0.2);
+  return GridGeometry::covering(Box(low + shift, high + shift), kExactVoxel);
 }
 
 /// A random workcell with one more camera, which measures depth.
@@ -81,10 +82,10 @@ TEST_CASE("adding a camera never adds shadow, and what is free stays free") {
       CAPTURE(seed);
       WorldModel world = random_world(seed);
       const std::vector<Observer> cameras = std::exchange(world.cameras, {});
-      auto before = classify(world, small_grid(), options);
+      auto before = classify(world, exact_grid(), options);
       for (const Observer& camera : cameras) {
         world.cameras.push_back(camera);
-        const auto after = classify(world, small_grid(), options);
+        const auto after = classify(world, exact_grid(), options);
         CHECK(added_shadow(*before, *after) == 0);
         // Anti-aliasing frees shadow in which the new camera may measure a surface.
         if (!options.anti_aliased()) {
@@ -107,10 +108,10 @@ TEST_CASE("removing a known object never turns free into shadow") {
     for (std::uint32_t seed = 0; seed < 12; ++seed) {
       CAPTURE(seed);
       WorldModel world = random_world(seed);
-      auto before = classify(world, small_grid(), options);
+      auto before = classify(world, exact_grid(), options);
       while (!world.objects.empty()) {
         world.objects.pop_back();
-        const auto after = classify(world, small_grid(), options);
+        const auto after = classify(world, exact_grid(), options);
         CHECK(turned(*before, VoxelState::free, *after, VoxelState::shadow) == 0);
         freed += turned(*before, VoxelState::shadow, *after, VoxelState::free);
         before = after;
@@ -124,7 +125,7 @@ TEST_CASE("three states and nothing else fill the work area in every mode") {
   for (const VolumeOptions& options : test::all_volume_modes()) {
     for (std::uint32_t seed = 0; seed < 6; ++seed) {
       CAPTURE(seed);
-      const auto grid = classify(random_world(seed), small_grid(), options);
+      const auto grid = classify(random_world(seed), exact_grid(), options);
       std::array<std::uint64_t, 4> counts{};
       std::uint64_t unseen = 0, stray_marks = 0;
       test::for_each_voxel(grid->geometry(), [&](const Eigen::Vector3i& voxel) {
@@ -151,12 +152,12 @@ TEST_CASE("moving world, cameras and work area by whole voxels changes nothing, 
       CAPTURE(seed);
       const WorldModel world = random_world(seed);
       const Eigen::Vector3d nowhere = Eigen::Vector3d::Zero();
-      const auto here = classify(moved(world, nowhere), small_grid(), options);
+      const auto here = classify(moved(world, nowhere), exact_grid(), options);
       for (const Eigen::Vector3d& voxels : {Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(-5, 3, 11),
                                             Eigen::Vector3d(1024, -512, 256)}) {
         CAPTURE(voxels.transpose());
-        const Eigen::Vector3d shift = kVoxel * voxels;
-        const auto there = classify(moved(world, shift), small_grid(shift), options);
+        const Eigen::Vector3d shift = kExactVoxel * voxels;
+        const auto there = classify(moved(world, shift), exact_grid(shift), options);
         test::expect_same_grid(*here, *there);
       }
     }

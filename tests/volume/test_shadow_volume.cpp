@@ -6,14 +6,11 @@
 #include "vantage/volume/classify.hpp"
 #include "vantage/volume/shadow_volume.hpp"
 #include "volume/same_grid.hpp"
+#include "volume/small_grid.hpp"
 #include "volume/volume_modes.hpp"
 
 namespace vantage {
 namespace {
-
-GridGeometry small_grid() {
-  return GridGeometry::covering(test::random_workcell_area(), 0.01);
-}
 
 /// A world, the volume that follows it, and the changes that happen to both.
 class Follower {
@@ -23,7 +20,7 @@ class Follower {
         options_(options),
         world_(test::random_workcell(seed)),
         truth_(test::scene_with_foreign_box(world_, random_)),
-        volume_(world_, small_grid(), options) {}
+        volume_(world_, test::small_grid(), options) {}
 
   /// A new depth image, or none, from one camera, which may have moved before.
   void change_something() {
@@ -45,7 +42,7 @@ class Follower {
 
   std::shared_ptr<const StateGrid> grid() const { return volume_.grid(); }
   std::shared_ptr<const StateGrid> from_scratch() const {
-    return classify(world_, small_grid(), options_);
+    return classify(world_, test::small_grid(), options_);
   }
 
  private:
@@ -82,7 +79,7 @@ TEST_CASE("after any sequence of new images and moves a volume is what starting 
 TEST_CASE("a volume without cameras is all unseen shadow but for what is known") {
   WorldModel world = test::random_workcell(2);
   world.cameras.clear();
-  const auto grid = ShadowVolume(world, small_grid()).grid();
+  const auto grid = ShadowVolume(world, test::small_grid()).grid();
   CHECK(grid->count(VoxelState::free) == 0);
   CHECK(grid->count(VoxelState::occupied) > 0);
   CHECK(grid->report().unseen_shadow == grid->count(VoxelState::shadow));
@@ -90,7 +87,7 @@ TEST_CASE("a volume without cameras is all unseen shadow but for what is known")
 
 TEST_CASE("a volume refuses images and cameras that do not fit, and stays as it was") {
   const WorldModel world = test::random_workcell(3);
-  ShadowVolume volume(world, small_grid());
+  ShadowVolume volume(world, test::small_grid());
   const auto before = volume.grid();
   const std::size_t none = world.cameras.size();
   const Pose pose = world.cameras[0].camera.T_world_cam();
@@ -108,7 +105,7 @@ TEST_CASE("a volume refuses images and cameras that do not fit, and stays as it 
 TEST_CASE("a volume that was told to stop stays without a grid") {
   const StopToken stop;
   stop.cancel();
-  const ShadowVolume volume(test::random_workcell(1), small_grid(), {}, stop);
+  const ShadowVolume volume(test::random_workcell(1), test::small_grid(), {}, stop);
   CHECK(volume.grid() == nullptr);
 }
 
@@ -118,7 +115,7 @@ TEST_CASE("a change that was stopped leaves no grid until it is done again") {
   const Pose& pose = camera.camera.T_world_cam();
   const StopToken stop;
   stop.cancel();
-  ShadowVolume volume(world, small_grid());
+  ShadowVolume volume(world, test::small_grid());
   const auto before = volume.grid();
   volume.set_depth(0, camera.depth, stop);
   CHECK(volume.grid() == nullptr);

@@ -3,7 +3,6 @@
 #include <tbb/task_arena.h>
 
 #include <cmath>
-#include <map>
 #include <utility>
 
 #include "vantage/volume/smooth_surface.hpp"
@@ -15,39 +14,14 @@ namespace {
 
 using test::ball;
 using test::box;
+using test::closed;
 using test::geometry_of;
 using test::make_grid;
 using test::shadow_where;
 
-/// How often each directed edge is used, less how often the opposite one is.
-struct EdgeUse {
-  int balance = 0;
-  int count = 0;
-};
-std::map<std::pair<std::uint32_t, std::uint32_t>, EdgeUse> edges_of(const TriangleMesh& mesh) {
-  std::map<std::pair<std::uint32_t, std::uint32_t>, EdgeUse> edges;
-  for (const Triangle& t : mesh.triangles()) {
-    for (std::size_t c = 0; c < 3; ++c) {
-      const std::uint32_t from = t[c], to = t[(c + 1) % 3];
-      EdgeUse& use = edges[std::minmax(from, to)];
-      use.balance += from < to ? 1 : -1;
-      ++use.count;
-    }
-  }
-  return edges;
-}
-
-/// Whether every edge has as many faces on one side as on the other.
-bool closed(const TriangleMesh& mesh) {
-  for (const auto& [edge, use] : edges_of(mesh)) {
-    if (use.balance != 0) return false;
-  }
-  return !mesh.empty();
-}
-
 /// Whether every edge has exactly two faces.
 bool simple(const TriangleMesh& mesh) {
-  for (const auto& [edge, use] : edges_of(mesh)) {
+  for (const auto& [edge, use] : test::edges_of(mesh)) {
     if (use.count != 2) return false;
   }
   return closed(mesh);

@@ -10,13 +10,13 @@ namespace vantage {
 namespace {
 
 /// Voxels compared so far, over all scenes.
-struct Tally {
+struct TwinTally {
   std::size_t scenes = 0, compared = 0, close_calls = 0, unseen = 0;
   std::array<std::size_t, 4> states{};
 };
 
 /// Both volumes must agree on every voxel that is not too close to call.
-void compare(const StateGrid& grid, const test::ThesisVolume& thesis, Tally& tally) {
+void compare(const StateGrid& grid, const test::ThesisVolume& thesis, TwinTally& tally) {
   test::for_each_voxel(thesis.geometry, [&](const Eigen::Vector3i& voxel) {
     const std::size_t i = thesis.index(voxel);
     if (thesis.close_call[i]) {
@@ -35,8 +35,8 @@ void compare(const StateGrid& grid, const test::ThesisVolume& thesis, Tally& tal
 
 /// `world_of(seed)` makes a scene.
 template <class WorldOf>
-Tally compare_scenes(std::size_t scenes, bool anti_alias, const WorldOf& world_of) {
-  Tally tally;
+TwinTally compare_scenes(std::size_t scenes, bool anti_alias, const WorldOf& world_of) {
+  TwinTally tally;
   const VolumeOptions options = test::volume_mode(OccluderMode::voxels, anti_alias);
   for (std::uint32_t seed = 0; tally.scenes < scenes; ++seed) {
     REQUIRE(seed < 4 * scenes + 20);
@@ -51,7 +51,7 @@ Tally compare_scenes(std::size_t scenes, bool anti_alias, const WorldOf& world_o
   return tally;
 }
 
-void expect_enough(const Tally& tally) {
+void expect_enough(const TwinTally& tally) {
   MESSAGE(tally.compared << " voxels compared, " << tally.close_calls << " too close to call");
   CHECK(tally.close_calls * 100 < tally.compared);
   for (const VoxelState state : {VoxelState::free, VoxelState::occupied, VoxelState::shadow}) {
@@ -62,8 +62,8 @@ void expect_enough(const Tally& tally) {
 }  // namespace
 
 TEST_CASE("voxels mode equals the thesis' algorithm voxel for voxel") {
-  const Tally tally = compare_scenes(test::scene_count(32), false,
-                                     [](auto seed) { return test::random_boxes(seed); });
+  const TwinTally tally = compare_scenes(test::scene_count(32), false,
+                                         [](auto seed) { return test::random_boxes(seed); });
   expect_enough(tally);
   CHECK(tally.unseen >= test::enough(1000));
 }

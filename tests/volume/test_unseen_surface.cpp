@@ -3,8 +3,6 @@
 #include <tbb/task_arena.h>
 
 #include <cmath>
-#include <limits>
-#include <map>
 #include <utility>
 
 #include "reference/noisy_depth.hpp"
@@ -23,23 +21,7 @@ namespace {
 
 using test::Random;
 
-const Box kArea({-0.1, -0.12, 0}, {0.1, 0.12, 0.15});
-const float kUnknown = std::numeric_limits<float>::quiet_NaN();
-
-/// Whether every edge is passed as often in one direction as in the other.
-bool closed(const TriangleMesh& mesh) {
-  std::map<std::pair<std::uint32_t, std::uint32_t>, int> balance;
-  for (const Triangle& t : mesh.triangles()) {
-    for (std::size_t c = 0; c < 3; ++c) {
-      const std::uint32_t from = t[c], to = t[(c + 1) % 3];
-      balance[std::minmax(from, to)] += from < to ? 1 : -1;
-    }
-  }
-  for (const auto& [edge, count] : balance) {
-    if (count != 0) return false;
-  }
-  return !mesh.empty();
-}
+const Box kSmallArea({-0.1, -0.12, 0}, {0.1, 0.12, 0.15});
 
 /// A camera above the work area's middle that looks down.
 PinholeCamera above(double height) {
@@ -105,7 +87,7 @@ void expect_same_sides(const TriangleMesh& mesh, std::span<const DepthLattice> l
 
 void expect_surface(const TriangleMesh& mesh, std::span<const DepthLattice> lattices,
                     const GridGeometry& geometry, double expected_m3, double tolerance) {
-  CHECK(closed(mesh));
+  CHECK(test::closed(mesh));
   CHECK(mesh.dropped_degenerate() == 0);
   expect_same_sides(mesh, lattices, geometry);
   CHECK(std::abs(test::volume_m3(mesh) / expected_m3 - 1) < tolerance);
@@ -149,9 +131,9 @@ bool near_shadow(const StateGrid& grid, const Eigen::Vector3i& voxel) {
 }  // namespace
 
 TEST_CASE("without lattices the unseen surface is the box, to the rounding of floats") {
-  const GridGeometry geometry = GridGeometry::covering(kArea, 0.01);
+  const GridGeometry geometry = GridGeometry::covering(kSmallArea, 0.01);
   const TriangleMesh mesh = unseen_surface({}, geometry);
-  CHECK(closed(mesh));
+  CHECK(test::closed(mesh));
   // Edges are cut off by half a voxel at the most.
   CHECK(test::volume_m3(mesh) / geometry.volume_m3() > 0.97);
   CHECK(test::volume_m3(mesh) / geometry.volume_m3() <= 1 + 1e-6);
@@ -169,7 +151,7 @@ TEST_CASE("without lattices the unseen surface is the box, to the rounding of fl
 TEST_CASE("the unseen surface lies on a lattice's planes to a small part of a voxel") {
   const PinholeCamera camera = above(0.6);
   const std::vector<DepthLattice> lattices{flat(camera, 0.537f)};  // at a height of 63 mm
-  const GridGeometry geometry = GridGeometry::covering(kArea, 0.005);
+  const GridGeometry geometry = GridGeometry::covering(kSmallArea, 0.005);
   const TriangleMesh mesh = unseen_surface(lattices, geometry);
   expect_surface(mesh, lattices, geometry, 0.2 * 0.24 * 0.063, 0.015);
   // The camera looks straight down within the box: nothing but the plane is left on top.
@@ -188,16 +170,16 @@ TEST_CASE("the unseen surface lies on a lattice's planes to a small part of a vo
 TEST_CASE("the unseen surface has the walls of holes and of the image's border") {
   const PinholeCamera camera = above(0.5);
   DepthLattice lattice{camera, {20, 40, 60, 80}, {10, 50, 90}, std::vector<float>(12, 1.0f)};
-  lattice.depth[0] = kUnknown;  // the first cell is a hole
+  lattice.depth[0] = DepthImage::kUnknown;  // the first cell is a hole
   const std::vector<DepthLattice> lattices{lattice};
-  const GridGeometry geometry = GridGeometry::covering(kArea, 0.005);
+  const GridGeometry geometry = GridGeometry::covering(kSmallArea, 0.005);
   const TriangleMesh mesh = unseen_surface(lattices, geometry);
   expect_surface(mesh, lattices, geometry, carved_m3(lattices, geometry), 0.01);
   // Along the walls, corners are at the columns and rows where the seen space ends.
   std::size_t inner = 0, on_walls = 0;
   for (const Eigen::Vector3f& v : mesh.vertices()) {
-    const double inside = std::min((v.cast<double>() - kArea.min()).minCoeff(),
-                                   (kArea.max() - v.cast<double>()).minCoeff());
+    const double inside = std::min((v.cast<double>() - kSmallArea.min()).minCoeff(),
+                                   (kSmallArea.max() - v.cast<double>()).minCoeff());
     if (inside < 0.01) continue;
     const auto at = camera.project(v.cast<double>());
     REQUIRE(at);
@@ -238,7 +220,7 @@ TEST_CASE("of the unseen, the surface has what a filter left") {
 
     const auto opened = opened_shadow(*carved, 2);
     const TriangleMesh mesh = unseen_surface(lattices, *opened);
-    CHECK(closed(mesh));
+    CHECK(test::closed(mesh));
     // Inside are the voxels' centres that carving and the filter leave, and of what carving leaves
     // those next to them.
     const auto solid = std::make_shared<const TriangleMesh>(mesh);

@@ -40,13 +40,13 @@ std::vector<DepthLattice> seen_lattices(std::uint32_t seed, Random& random, bool
 
 /// In pixels; `same_depth` and `near_the_mesh`: to the mesh's resolution, `closely`: well within
 /// it.
-struct Tally {
+struct PixelTally {
   std::size_t rays = 0, hits = 0, same_outcome = 0, same_depth = 0, closely = 0, near_the_mesh = 0;
 };
 
 /// Compares what the pixels of a view meet.
 void compare(const SeenSpace& space, const TriangleMesh& mesh, const PinholeCamera& view,
-             Tally& tally) {
+             PixelTally& tally) {
   SceneBuilder builder;
   builder.add_mesh(mesh);
   const auto surface = builder.build();
@@ -77,7 +77,7 @@ void compare(const SeenSpace& space, const TriangleMesh& mesh, const PinholeCame
   }
 }
 
-void expect_agreement(const Tally& tally, double same_outcome, double same_depth) {
+void expect_agreement(const PixelTally& tally, double same_outcome, double same_depth) {
   CAPTURE(tally.rays);
   CAPTURE(tally.hits);
   CHECK(tally.hits > tally.rays / 20);
@@ -95,8 +95,8 @@ PinholeCamera random_view(Random& random) {
 
 /// One view of each random cell. @param filtered noisy images, of which a filter left something;
 /// else ideal ones, and all that they left unseen.
-Tally compare_cells(bool filtered) {
-  Tally tally;
+PixelTally compare_cells(bool filtered) {
+  PixelTally tally;
   const GridGeometry geometry = GridGeometry::covering(test::random_workcell_area(), kVoxel);
   for (std::uint32_t seed = 0; seed < test::scene_count(12); ++seed) {
     Random random(seed);

@@ -9,16 +9,16 @@
 namespace vantage::detail {
 
 /// Which way faces look, and in which plane they lie: index coordinate `position` along `axis`.
-struct FacePlane {
+struct AxisPlane {
   std::int8_t axis, sign;
   std::int32_t position;
-  auto operator<=>(const FacePlane&) const = default;
+  auto operator<=>(const AxisPlane&) const = default;
 };
 
 /// 8 × 8 faces in a plane, bit 8 · row + column. Rows count along the axis after the plane's
 /// (x after z), columns along the one after that.
 struct FacePatch {
-  FacePlane plane;
+  AxisPlane plane;
   std::int32_t row, column;  ///< index coordinates of the first
   std::uint64_t faces;
   auto operator<=>(const FacePatch&) const = default;

@@ -18,11 +18,6 @@ namespace vantage::detail {
 /// the two meet.
 openvdb::FloatGrid::Ptr field_around(const openvdb::MaskTree& voxels, int band, float half);
 
-/// Whether voxel n of a leaf is on.
-inline bool is_on(const BlockWords& words, openvdb::Index n) {
-  return words[n >> 6] >> (n & 63) & 1;
-}
-
 /// A value that is on the side where its voxel is, by `margin` at least.
 inline float on_side(float value, bool inside, float margin) {
   return inside ? std::min(value, -margin) : std::max(value, margin);

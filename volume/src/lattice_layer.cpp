@@ -27,9 +27,8 @@ struct LayerCorners {
   LayerNumbers d00, d10, d01, d11;
 };
 
-VANTAGE_MULTIVERSION
-void project_kernel(const LayerOnImage& layer, double* __restrict u, double* __restrict v,
-                    double* __restrict inverse) {
+[[gnu::always_inline]] inline void project_body(const LayerOnImage& layer, double* __restrict u,
+                                                double* __restrict v, double* __restrict inverse) {
   for (int n = 0; n < kLayerVoxels; ++n) {
     const double y = n >> 3, z = n & 7;
     const double uz = layer.first[0] + y * layer.step_y[0] + z * layer.step_z[0];
@@ -40,11 +39,13 @@ void project_kernel(const LayerOnImage& layer, double* __restrict u, double* __r
     v[n] = vz * inverse[n];
   }
 }
+constexpr Multiversion<project_body> project_kernel;
 
 /// Moves those to a cell that are at its start or beyond.
-VANTAGE_MULTIVERSION
-void move_kernel(double to_cell, double to_start, double to_per_cell, const double* __restrict at,
-                 double* __restrict cell, double* __restrict start, double* __restrict per_cell) {
+[[gnu::always_inline]] inline void move_body(double to_cell, double to_start, double to_per_cell,
+                                             const double* __restrict at, double* __restrict cell,
+                                             double* __restrict start,
+                                             double* __restrict per_cell) {
   for (int n = 0; n < kLayerVoxels; ++n) {
     const bool beyond = at[n] >= to_start;
     const double old_cell = cell[n], old_start = start[n], old_per_cell = per_cell[n];
@@ -53,6 +54,7 @@ void move_kernel(double to_cell, double to_start, double to_per_cell, const doub
     per_cell[n] = beyond ? to_per_cell : old_per_cell;
   }
 }
+constexpr Multiversion<move_body> move_kernel;
 
 /// Cells by counting the vertices that a voxel is beyond: there are few, and nothing to look up.
 void find_places(const LatticeAxis& axis, int first, int last, const LayerNumbers& at,
@@ -80,9 +82,9 @@ void gather_corners(const LayerPlaces& columns, const LayerPlaces& rows, std::si
 }
 
 /// The surface's 1 / depth; NaN if one of the four is unknown.
-VANTAGE_MULTIVERSION
-void surface_kernel(const LayerPixels& pixels, const LayerPlaces& columns, const LayerPlaces& rows,
-                    const LayerCorners& d, double* __restrict surface) {
+[[gnu::always_inline]] inline void surface_body(const LayerPixels& pixels,
+                                                const LayerPlaces& columns, const LayerPlaces& rows,
+                                                const LayerCorners& d, double* __restrict surface) {
   for (int n = 0; n < kLayerVoxels; ++n) {
     const double x = (pixels.u.at[n] - columns.start.at[n]) * columns.per_cell.at[n];
     const double y = (pixels.v.at[n] - rows.start.at[n]) * rows.per_cell.at[n];
@@ -92,24 +94,27 @@ void surface_kernel(const LayerPixels& pixels, const LayerPlaces& columns, const
     surface[n] = x + y <= 1 ? low : high;
   }
 }
+constexpr Multiversion<surface_body> surface_kernel;
 
 /// Where the lattice ends, from 0.
-struct Rectangle {
+struct LatticeEnd {
   double width, height;
 };
 
-VANTAGE_MULTIVERSION
-void compare_kernel(const Rectangle& rectangle, const double* __restrict u,
-                    const double* __restrict v, const double* __restrict inverse,
-                    const double* __restrict surface, std::uint8_t* __restrict covered,
-                    std::uint8_t* __restrict seen) {
+[[gnu::always_inline]] inline void judge_body(const LatticeEnd& end, const double* __restrict u,
+                                              const double* __restrict v,
+                                              const double* __restrict inverse,
+                                              const double* __restrict surface,
+                                              std::uint8_t* __restrict covered,
+                                              std::uint8_t* __restrict seen) {
   for (int n = 0; n < kLayerVoxels; ++n) {
-    const bool inside = (inverse[n] > 0) & (u[n] >= 0) & (u[n] <= rectangle.width) & (v[n] >= 0) &
-                        (v[n] <= rectangle.height);
+    const bool inside =
+        (inverse[n] > 0) & (u[n] >= 0) & (u[n] <= end.width) & (v[n] >= 0) & (v[n] <= end.height);
     covered[n] = std::uint8_t(inside);
     seen[n] = std::uint8_t(inside & (inverse[n] > surface[n]));
   }
 }
+constexpr Multiversion<judge_body> judge_kernel;
 
 /// Bit n of the result is byte n, which is 0 or 1.
 std::uint64_t to_bits(const std::uint8_t (&flags)[kLayerVoxels]) {
@@ -138,8 +143,8 @@ LayerSeen compare_layer(const LatticeAxis& columns, const LatticeAxis& rows,
   LayerNumbers surface;
   surface_kernel(pixels, column, row, corners, surface.at);
   alignas(64) std::uint8_t covered[kLayerVoxels], seen[kLayerVoxels];
-  compare_kernel({columns.length, rows.length}, pixels.u.at, pixels.v.at, pixels.inverse.at,
-                 surface.at, covered, seen);
+  judge_kernel({columns.length, rows.length}, pixels.u.at, pixels.v.at, pixels.inverse.at,
+               surface.at, covered, seen);
   return {to_bits(covered), to_bits(seen)};
 }
 

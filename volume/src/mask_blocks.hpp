@@ -28,6 +28,11 @@ inline BlockMask mask_of(const BlockWords& words) {
   return mask;
 }
 
+/// Whether voxel n of a leaf is on.
+inline bool is_on(const BlockWords& words, std::size_t n) {
+  return words[n >> 6] >> (n & 63) & 1;
+}
+
 inline int count_on(const BlockWords& words) {
   int count = 0;
   for (const std::uint64_t word : words) count += std::popcount(word);

@@ -42,10 +42,6 @@ class Sets {
   std::vector<std::uint32_t> parent_;
 };
 
-bool is_on(const BlockWords& words, std::size_t voxel) {
-  return words[voxel >> 6] >> (voxel & 63) & 1;
-}
-
 /// Unites the components that meet where `block` and the `next` one along an axis do.
 void unite_across(const ShadowBlock& block, const ShadowBlock& next, std::size_t axis, Sets& sets) {
   static constexpr std::size_t kStep[3] = {64, 8, 1};

@@ -16,8 +16,8 @@ namespace vantage {
 namespace detail {
 namespace {
 
-constexpr int kBand = 2;
-constexpr float kLeastMargin = 0.05f;  // voxels: no corner of the mesh sits on a voxel's centre
+constexpr int kFieldBand = 2;
+constexpr float kCornerMargin = 0.05f;  // voxels: no corner of the mesh sits on a voxel's centre
 
 /// How far outside of the unseen space voxels' centres are, in voxels.
 class UnseenField {
@@ -35,7 +35,7 @@ class UnseenField {
     for (const LatticeView& view : views_) {
       outside = std::max(outside, view.depth_in_seen_m(centre) / frame_.voxel_size_m);
     }
-    return std::clamp(outside, -double(kBand), double(kBand));
+    return std::clamp(outside, -double(kFieldBand), double(kFieldBand));
   }
 
  private:
@@ -62,7 +62,7 @@ class Shell {
   const openvdb::MaskTree& voxels() const { return voxels_; }
 
   double outside(const openvdb::Coord& voxel) const {
-    if (core_.isValueOn(voxel)) return -kBand;
+    if (core_.isValueOn(voxel)) return -kFieldBand;
     return voxels_.isValueOn(voxel) ? -0.5 : 0.5;
   }
 
@@ -79,7 +79,7 @@ void measure(const UnseenField& distances, const Shell* shell, const openvdb::Ma
     for (auto voxel = leaf.beginValueOn(); voxel; ++voxel) {
       double outside = distances.outside(to_voxel(voxel.getCoord()));
       if (shell != nullptr) outside = std::max(outside, shell->outside(voxel.getCoord()));
-      voxel.setValue(on_side(float(outside), is_on(inside, voxel.pos()), kLeastMargin));
+      voxel.setValue(on_side(float(outside), is_on(inside, voxel.pos()), kCornerMargin));
     }
   });
 }
@@ -88,7 +88,7 @@ TriangleMesh surface(std::span<const DepthLattice> lattices, const GridGeometry&
                      const Shell* shell) {
   openvdb::MaskTree unseen = carve(lattices, geometry, {})->impl().shadow;
   if (shell != nullptr) unseen.topologyIntersection(shell->voxels());
-  const auto field = field_around(unseen, kBand, float(kBand));
+  const auto field = field_around(unseen, kFieldBand, float(kFieldBand));
   measure(UnseenField(lattices, geometry), shell, unseen, field->tree());
   return field_surface(*field, geometry, "unseen surface");
 }

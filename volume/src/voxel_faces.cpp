@@ -73,7 +73,7 @@ class Merger {
 };
 
 struct PlaneRectangles {
-  FacePlane plane;
+  AxisPlane plane;
   std::vector<Rectangle> rectangles;
 };
 
@@ -98,7 +98,7 @@ class CornerNumbers {
   explicit CornerNumbers(const GridGeometry& geometry)
       : ny_(std::uint64_t(geometry.size().y()) + 3), nz_(std::uint64_t(geometry.size().z()) + 3) {}
 
-  std::uint64_t number(const FacePlane& plane, int row, int column) const {
+  std::uint64_t number(const AxisPlane& plane, int row, int column) const {
     Eigen::Vector3i corner;
     corner[plane.axis] = plane.position;
     corner[(plane.axis + 1) % 3] = row;

@@ -53,6 +53,12 @@ class VANTAGE_API Pose {
   Eigen::Vector3d translation_ = Eigen::Vector3d::Zero();
 };
 
+/// The smallest rotation that takes one direction to another, of unit norm; for opposite ones about
+/// any axis across. Neither need be of unit length. (Eigen's FromTwoVectors does the same by way of
+/// a singular value decomposition, which takes seconds to compile.)
+VANTAGE_API Eigen::Quaterniond rotation_between(const Eigen::Vector3d& from,
+                                                const Eigen::Vector3d& to);
+
 /// Covariance of a pose. Translation (x, y, z, m²) before rotation (a rotation vector around x, y,
 /// z, rad²), both in the parent frame, as ROS has it: the true pose is (exp(r) R, translation + t)
 /// for a small (t, r). For a T_world_object the parent is the world.
