@@ -57,7 +57,8 @@ void photograph(const std::string& name, MarkerTally& tally) {
 
 }  // namespace
 
-TEST_CASE("OpenCV finds the markers of the shipped scenes, corners within half a pixel") {
+TEST_CASE("OpenCV finds the markers of the shipped scenes, corners within half a pixel" *
+          doctest::test_suite("slow")) {
   MarkerTally tally;
   for (const char* name : {"wall", "corridor", "two_pillars", "foreign_objects", "castle",
                            "clutter", "bin", "duck", "workcell"}) {

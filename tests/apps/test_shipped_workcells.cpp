@@ -182,7 +182,7 @@ TEST_CASE("nothing in any other scene crosses another thing") {
   for (const std::string& name : some(other_names())) CHECK_MESSAGE(crossings(name).empty(), name);
 }
 
-TEST_CASE("known objects stand on something") {
+TEST_CASE("known objects stand on something" * doctest::test_suite("slow")) {
   const std::vector<std::string> names{"bin", "castle", "corridor", "duck", "wall", "workcell"};
   for (const std::string& name : some(names)) {
     CAPTURE(name);

@@ -95,13 +95,15 @@ MarkerTally look_from_all_sides(const ColorSensor& sensor, std::uint32_t first_s
 
 }  // namespace
 
-TEST_CASE("OpenCV finds every marker that is large, in front and in full view") {
+TEST_CASE("OpenCV finds every marker that is large, in front and in full view" *
+          doctest::test_suite("slow")) {
   MarkerTally tally = look_from_all_sides({}, 1, int(scene_count(3)));
   CHECK(tally.expected >= int(enough(60)));
   MESSAGE(tally.summary());
 }
 
-TEST_CASE("OpenCV finds the markers through a sensor's noise and vignetting too") {
+TEST_CASE("OpenCV finds the markers through a sensor's noise and vignetting too" *
+          doctest::test_suite("slow")) {
   ColorSensor sensor;
   sensor.read_noise = 0.004;
   sensor.shot_noise = 2e-4;
