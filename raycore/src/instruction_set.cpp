@@ -1,6 +1,7 @@
 #include "vantage/raycore/instruction_set.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
