@@ -40,13 +40,20 @@ float radical_inverse(unsigned i, unsigned base) {
 /// What each of the samples of a pixel does; the same for all pixels.
 struct Sample {
   float du, dv;            ///< position in the pixel, -0.5 to 0.5
-  float sky_u, sky_v;      ///< picks a direction over the hemisphere
+  Eigen::Vector3f to_sky;  ///< a direction over the hemisphere around z
   Eigen::Vector3f to_sun;  ///< a direction within the sun's disc
 };
 
 Eigen::Vector3f any_perpendicular(const Eigen::Vector3f& n) {
   return n.cross(std::abs(n.z()) < 0.9f ? Eigen::Vector3f::UnitZ() : Eigen::Vector3f::UnitX())
       .normalized();
+}
+
+/// A direction around z with density cos/π: skylight is then the mere share of such directions that
+/// are unobstructed. u and v are in [0, 1).
+Eigen::Vector3f over_hemisphere(float u, float v) {
+  const float angle = 2 * std::numbers::pi_v<float> * u, radius = std::sqrt(v);
+  return {radius * std::cos(angle), radius * std::sin(angle), std::sqrt(std::max(1e-4f, 1 - v))};
 }
 
 std::vector<Sample> make_samples(const PictureOptions& options) {
@@ -58,19 +65,15 @@ std::vector<Sample> make_samples(const PictureOptions& options) {
     const float radius = options.sun_radius * std::sqrt(radical_inverse(i, 13));
     const Eigen::Vector3f offset = radius * (std::cos(angle) * side + std::sin(angle) * up);
     samples.push_back({radical_inverse(i, 2) - 0.5f, radical_inverse(i, 3) - 0.5f,
-                       radical_inverse(i, 5), radical_inverse(i, 7), (sun + offset).normalized()});
+                       over_hemisphere(radical_inverse(i, 5), radical_inverse(i, 7)),
+                       (sun + offset).normalized()});
   }
   return samples;
 }
 
-/// A direction over the hemisphere around n with density cos/π: skylight is then the mere share of
-/// such directions that are unobstructed.
 Eigen::Vector3f sky_direction(const Eigen::Vector3f& n, const Sample& sample) {
-  const float angle = 2 * std::numbers::pi_v<float> * sample.sky_u;
-  const float radius = std::sqrt(sample.sky_v);
   const Eigen::Vector3f side = any_perpendicular(n), up = n.cross(side);
-  return radius * (std::cos(angle) * side + std::sin(angle) * up) +
-         std::sqrt(std::max(1e-4f, 1 - sample.sky_v)) * n;
+  return sample.to_sky.x() * side + sample.to_sky.y() * up + sample.to_sky.z() * n;
 }
 
 bool on_line(const Material& material, const Eigen::Vector3f& p, const Eigen::Vector3f& n) {
@@ -94,7 +97,9 @@ class Painter {
         camera_(camera),
         options_(options),
         samples_(make_samples(options)),
-        background_(to_linear(options.background)) {}
+        background_(to_linear(options.background)) {
+    for (const Material& material : materials) colors_.push_back(to_linear(material.color));
+  }
 
   void paint(int band, ColorImage& image) const {
     const std::vector<detail::Pixel> pixels = detail::pixels_of_band(camera_.intrinsics(), band);
@@ -152,7 +157,7 @@ class Painter {
         fades ? (distance - material.fade_from_m) / (material.fade_to_m - material.fade_from_m)
               : 0.0f;
     surface.pixel.push_back(i);
-    surface.color.push_back((line ? material.line_shade : 1.0f) * to_linear(material.color));
+    surface.color.push_back((line ? material.line_shade : 1.0f) * colors_[hits.object[i]]);
     surface.normal.push_back(normal);
     surface.faded.push_back(std::clamp(faded, 0.0f, 1.0f));
     surface.from.push_back(from);
@@ -180,7 +185,8 @@ class Painter {
   const PinholeCamera& camera_;
   const PictureOptions& options_;
   std::vector<Sample> samples_;
-  Eigen::Vector3f background_;  ///< linear
+  Eigen::Vector3f background_;           ///< linear, as are the colours
+  std::vector<Eigen::Vector3f> colors_;  ///< of the materials
 };
 
 }  // namespace

@@ -1,11 +1,11 @@
 #include "board_flip.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
 #include "model_error.hpp"
 #include "pose_manifold.hpp"
+#include "principal_axes.hpp"
 
 namespace vantage::detail {
 namespace {
@@ -26,24 +26,18 @@ bool is_apart(const Pose& T_cam_world, const PoseFit& board) {
 }  // namespace
 
 std::vector<Pose> mirrored_poses(std::span<const BoardPair> all, const BoardFit& board) {
-  const double count = double(board.points(all));
-  Eigen::Vector3d centre = Eigen::Vector3d::Zero();
+  std::vector<Eigen::Vector3d> points;
   for (const std::size_t i : board.pairs) {
-    for (const Eigen::Vector3d& p : all[i].term.points_m) centre += p / count;
+    const auto& of_pair = all[i].term.points_m;
+    points.insert(points.end(), of_pair.begin(), of_pair.end());
   }
-  Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
-  for (const std::size_t i : board.pairs) {
-    for (const Eigen::Vector3d& p : all[i].term.points_m) {
-      scatter += (p - centre) * (p - centre).transpose();
-    }
-  }
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(scatter);
+  const auto [centre, axes, extents] = principal_axes(points);
   const Eigen::Vector3d centre_cam = board.T_cam_world() * centre;
   const Eigen::Matrix3d across_sight = mirror(centre_cam.normalized());
   std::vector<Pose> poses;
   for (int axis = 0; axis < 3; ++axis) {
     const Eigen::Matrix3d rotation =
-        across_sight * board.T_cam_world().rotation() * mirror(axes.eigenvectors().col(axis));
+        across_sight * board.T_cam_world().rotation() * mirror(axes.col(axis));
     poses.push_back(Pose::from_rotation(rotation, centre_cam - rotation * centre));
   }
   return poses;

@@ -1,11 +1,11 @@
 #include "marker_pose.hpp"
 
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <opencv2/calib3d.hpp>
 
 #include "pose_fit.hpp"
+#include "principal_axes.hpp"
 #include "vantage/raycore/error.hpp"
 #include "wide_lens.hpp"
 
@@ -14,32 +14,14 @@ namespace {
 
 constexpr double kFlat = 1e-6;  // of the extent
 
-/// Points in their principal axes: their centre, x along their greatest extent, z the least.
-struct PrincipalFrame {
-  Pose T_body_frame;
-  Eigen::Vector3d extents;  ///< root of the mean square along each axis, falling
-
-  bool collinear() const { return !(extents[1] > kFlat * extents[0]); }
-  bool planar() const { return !(extents[2] > kFlat * extents[0]); }
-};
-
-PrincipalFrame principal_frame(std::span<const Eigen::Vector3d> points) {
-  Eigen::Vector3d centre = Eigen::Vector3d::Zero();
-  for (const Eigen::Vector3d& p : points) centre += p / double(points.size());
-  Eigen::Matrix3Xd offsets(3, Eigen::Index(points.size()));
-  for (std::size_t i = 0; i < points.size(); ++i) offsets.col(Eigen::Index(i)) = points[i] - centre;
-  const Eigen::JacobiSVD<Eigen::Matrix3Xd> svd(offsets, Eigen::ComputeFullU);
-  Eigen::Matrix3d axes = svd.matrixU();
-  axes.col(2) = axes.col(0).cross(axes.col(1));
-  const Eigen::Vector3d extents = svd.singularValues() / std::sqrt(double(points.size()));
-  return {Pose::from_rotation(axes, centre), extents};
-}
+bool collinear(const PrincipalAxes& p) { return !(p.extents[1] > kFlat * p.extents[0]); }
+bool planar(const PrincipalAxes& p) { return !(p.extents[2] > kFlat * p.extents[0]); }
 
 /// Whether the pixels lie on one line, or at one place, to a thousandth of a pixel.
 bool on_a_line(std::span<const Eigen::Vector2d> pixels) {
   std::vector<Eigen::Vector3d> points;
   for (const Eigen::Vector2d& p : pixels) points.emplace_back(p.x(), p.y(), 0);
-  return !(principal_frame(points).extents[1] > 1e-3);
+  return !(principal_axes(points).extents[1] > 1e-3);
 }
 
 /// Points and their images as OpenCV wants them: on the plane z = 1, so that its camera matrix is
@@ -114,13 +96,14 @@ std::vector<PoseGuess> guess_poses(const Lens& lens, std::span<const Eigen::Vect
   const PointTerm term{
       &lens, {}, {points_m.begin(), points_m.end()}, {pixels.begin(), pixels.end()}, 1};
   if (!are_sound(term)) return {};
-  const PrincipalFrame frame = principal_frame(points_m);
-  if (frame.collinear()) return {};
-  const Pose T_frame_body = frame.T_body_frame.inverse();
-  const auto pairs = correspondences(term, T_frame_body, frame.planar());
+  const PrincipalAxes principal = principal_axes(points_m);
+  if (collinear(principal)) return {};
+  const bool flat = planar(principal);
+  const Pose T_frame_body = Pose::from_rotation(principal.axes, principal.centre).inverse();
+  const auto pairs = correspondences(term, T_frame_body, flat);
   if (!pairs) return {};
   std::vector<cv::Mat> translations;
-  const std::vector<cv::Mat> turns = solutions(*pairs, frame.planar(), translations);
+  const std::vector<cv::Mat> turns = solutions(*pairs, flat, translations);
   std::vector<PoseGuess> guesses;
   for (std::size_t i = 0; i < turns.size(); ++i) {
     const auto T_cam_frame = pose_from_opencv(turns[i], translations[i]);

@@ -1,18 +1,18 @@
 #include "seeds.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <limits>
 #include <map>
 #include <string>
 
 #include "marker_pose.hpp"
+#include "principal_axes.hpp"
 
 namespace vantage::detail {
 namespace {
 
 constexpr std::size_t kMostTriples = 200;  // for each view and type
-constexpr double kLeastVariance = 1e-6;    // collinear: second largest variance over the largest
+constexpr double kLeastExtent = 1e-3;      // collinear: second largest extent over the largest
 
 using Readings = std::vector<const Reading*>;
 
@@ -20,12 +20,8 @@ bool enough_for_a_pose(const Reading& reading) {
   if (reading.sighting->pose()) return true;
   const auto& points = reading.points_m;
   if (points.size() < 4) return false;
-  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
-  for (const Eigen::Vector3d& point : points) mean += point / double(points.size());
-  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
-  for (const Eigen::Vector3d& p : points) spread += (p - mean) * (p - mean).transpose();
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(spread, Eigen::EigenvaluesOnly);
-  return solver.eigenvalues()[1] > kLeastVariance * solver.eigenvalues()[2];
+  const Eigen::Vector3d extents = principal_axes(points).extents;
+  return extents[1] > kLeastExtent * extents[0];
 }
 
 double size_px(const Readings& readings) {

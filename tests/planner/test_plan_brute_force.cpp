@@ -35,7 +35,8 @@ std::vector<PlainRank> score_everything(const WorldModel& world, const Plan& pla
 
 }  // namespace
 
-TEST_CASE("on random workcells a plan's top ten are those of scoring everything, by every method") {
+TEST_CASE("on random workcells a plan's top ten are those of scoring everything, by every method" *
+          doctest::test_suite("slow")) {
   std::size_t left_out = 0;
   for (std::uint32_t seed = 0; seed < test::scene_count(3); ++seed) {
     for (const std::string method : {"voxel", "shadow", "light", "mesh"}) {

@@ -172,7 +172,8 @@ TEST_CASE("a bounded shadow score is below what was needed, and never below the 
   CHECK(bounded > test::enough(300));
 }
 
-TEST_CASE("the bound of a shadow score holds for views from anywhere") {
+TEST_CASE("the bound of a shadow score holds for views from anywhere" *
+          doctest::test_suite("slow")) {
   std::size_t tight = 0, rough = 0;
   for (std::uint32_t seed = 0; seed < test::scene_count(60); ++seed) {
     CAPTURE(seed);
