@@ -2,10 +2,8 @@
 
 #include <CLI/CLI.hpp>
 #include <functional>
-#include <optional>
 
 #include "exit_code.hpp"
-#include "run_plan.hpp"
 
 namespace vantage {
 
@@ -22,17 +20,5 @@ void add_evaluate_planning(CLI::App& evaluate_verb, Action& action);
 void add_evaluate_reconstruction(CLI::App& evaluate_verb, Action& action);
 void add_evaluate_shadow_filters(CLI::App& evaluate_verb, Action& action);
 void add_evaluate_replay(CLI::App& evaluate_verb, Action& action);
-
-/// Options that verbs share.
-struct CommonOptions {
-  OutputOptions output;
-  int threads = 0;
-  std::optional<double> deadline_ms;
-
-  void add_to(CLI::App& verb);
-
-  /// The deadline counts from `start`.
-  RunOptions run(StopToken::Clock::time_point start) const;
-};
 
 }  // namespace vantage

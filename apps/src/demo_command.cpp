@@ -1,6 +1,7 @@
 #include <memory>
 
 #include "command.hpp"
+#include "run_options.hpp"
 #include "demo_scene.hpp"
 #include "interrupt.hpp"
 #include "plan_json.hpp"

@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "command.hpp"
+#include "run_options.hpp"
 #include "interrupt.hpp"
 #include "method_options.hpp"
 #include "plan_input.hpp"

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "shapes.hpp"
+#include "vantage/volume/voxel_surface.hpp"
 
 namespace vantage {
 namespace {
@@ -46,9 +47,9 @@ std::vector<PinholeCamera> suggested_cameras(const Plan& plan) {
 }
 
 std::vector<ColoredMesh> voxel_meshes(const StateGrid& grid) {
-  return {{"occupied", grid.faces(VoxelState::occupied), kOccupied},
-          {"shadow", grid.faces(VoxelState::shadow), kShadow},
-          {"revealed", grid.faces(VoxelState::revealed), kRevealed, float(kRevealedOpacity)}};
+  return {{"occupied", voxel_faces(grid, VoxelState::occupied), kOccupied},
+          {"shadow", voxel_faces(grid, VoxelState::shadow), kShadow},
+          {"revealed", voxel_faces(grid, VoxelState::revealed), kRevealed, float(kRevealedOpacity)}};
 }
 
 std::vector<ColoredMesh> camera_meshes(const Plan& plan, const WorldModel& world) {

@@ -15,6 +15,7 @@
 #include "vantage/volume/carve.hpp"
 #include "vantage/volume/grid_files.hpp"
 #include "vantage/volume/smooth_surface.hpp"
+#include "vantage/volume/voxel_surface.hpp"
 #include "workers.hpp"
 
 namespace vantage {
@@ -48,7 +49,7 @@ void write_extras(const Plan& plan, const ShadowRegions& regions, const WorldMod
         [&](const fs::path& p) { write_labels_npy(p, *plan.grid); });
   write(output.save_grid, "regions.npy", [&](const fs::path& p) { write_regions_npy(p, regions); });
   write(output.save_surface, "shadow.ply",
-        [&](const fs::path& p) { write_ply(p, plan.grid->faces(VoxelState::shadow)); });
+        [&](const fs::path& p) { write_ply(p, voxel_faces(*plan.grid, VoxelState::shadow)); });
   write(output.save_surface, "shadow_smooth.ply",
         [&](const fs::path& p) { write_ply(p, smooth_surface(*plan.grid, VoxelState::shadow)); });
   write(output.save_surface && plan.request.method.name == "mesh", "unseen.ply",

@@ -51,7 +51,7 @@ struct FlatFaces {
   void add_group(const std::vector<FaceCorners>& faces, std::span<const std::uint32_t> members);
 };
 
-/// @param faces as `StateGrid::faces` gives them: two triangles for each rectangle.
+/// @param faces as `voxel_faces` gives them: two triangles for each rectangle.
 FlatFaces rectangles_of(const TriangleMesh& faces);
 
 /// The largest faces of a scene, as many as are worth their cost where they hide something. What is

@@ -5,6 +5,7 @@
 #include "shadow_middle.hpp"
 #include "vantage/raycore/scene_builder.hpp"
 #include "vantage/volume/classify.hpp"
+#include "vantage/volume/voxel_surface.hpp"
 
 namespace vantage {
 
@@ -17,7 +18,7 @@ PlanningScene::PlanningScene(const WorldModel& world, std::shared_ptr<const Stat
         shadow_centres_ = std::make_shared<const Points>(grid_->centres(VoxelState::shadow));
       },
       [&] {
-        ShadowSurface surface = grid_->shadow_surface(mode);
+        ShadowSurface surface = shadow_surface(*grid_, mode);
         shadow_faces_ = std::make_shared<const TriangleMesh>(std::move(surface.open));
         SceneBuilder builder;
         add_occluders(world, *grid_, mode, builder);

@@ -4,7 +4,7 @@
 
 #include "shadow_in_view.hpp"
 #include "vantage/planner/planning_scene.hpp"
-#include "vantage/planner/servo_refiner.hpp"
+#include "vantage/planner/shadow_view.hpp"
 
 namespace vantage::detail {
 

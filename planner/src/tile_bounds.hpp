@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <bit>
 
-#include "vantage/planner/servo_refiner.hpp"
+#include "vantage/planner/shadow_view.hpp"
 #include "vantage/raycore/scene.hpp"
 
 namespace vantage::detail {

@@ -7,7 +7,8 @@
 #include <limits>
 #include <optional>
 
-#include "vantage/planner/view_search.hpp"
+#include "vantage/planner/travel_cost.hpp"
+#include "vantage/planner/view_scorer.hpp"
 
 namespace vantage::detail {
 

@@ -19,22 +19,6 @@ bool is_in_reach(const Eigen::Vector3f& p) {
 
 }  // namespace
 
-void check_batch_size(const char* what, std::size_t size, std::size_t expected) {
-  if (size == expected) return;
-  throw bad_input("batch", fmt::format("{} has {} elements; expected {}", what, size, expected));
-}
-
-void check_packets(std::size_t points, std::span<const std::uint32_t> packets,
-                   std::initializer_list<std::size_t> sizes) {
-  for (const std::size_t size : sizes) check_batch_size("an array", size, packets.size());
-  for (const std::uint32_t packet : packets) {
-    if (packet < points / kPacketWidth) continue;
-    throw bad_input("batch", fmt::format("packet {} of {} points; expected packets of {} that are "
-                                         "there in full",
-                                         packet, points, kPacketWidth));
-  }
-}
-
 void refuse_segment(std::size_t index, const Eigen::Vector3f& from, const Eigen::Vector3f& to) {
   const bool zero = is_in_reach(from) && from == to;
   throw bad_input(

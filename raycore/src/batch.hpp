@@ -8,6 +8,7 @@
 #include <cstddef>
 
 #include "packet.hpp"
+#include "packet_bits.hpp"
 
 namespace vantage::detail {
 
@@ -29,9 +30,6 @@ bool for_each_block(std::size_t count, const Block& block) {
   });
   return ok.load();
 }
-
-/// @throws Error bad_input if the sizes differ.
-void check_batch_size(const char* what, std::size_t size, std::size_t expected);
 
 /// Called when a batch held a ray that Embree must not see.
 /// @throws Error bad_input that names the first such ray and what is wrong with it.

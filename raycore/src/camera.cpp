@@ -5,7 +5,7 @@
 #include <cmath>
 #include <string>
 
-#include "packet.hpp"
+#include "packet_bits.hpp"
 #include "pixel_direction.hpp"
 #include "vantage/raycore/error.hpp"
 #include "vantage/raycore/multiversion.hpp"

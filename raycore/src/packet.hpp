@@ -3,10 +3,6 @@
 #include <Eigen/Core>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
-#include <cstring>
-#include <initializer_list>
-#include <span>
 
 #include "embree.hpp"
 #include "vantage/raycore/points.hpp"
@@ -43,20 +39,6 @@ inline bool valid_ray(float ox, float oy, float oz, float dx, float dy, float dz
 inline bool valid_segment(float ox, float oy, float oz, float tx, float ty, float tz) {
   return in_reach(ox, oy, oz) & in_reach(tx, ty, tz) & ((tx != ox) | (ty != oy) | (tz != oz));
 }
-
-/// Bit l of the result is set if byte l, which is 0 or 1, is 1.
-inline std::uint16_t to_bits(const std::uint8_t (&flags)[kPacketWidth]) {
-  std::uint64_t halves[2];
-  std::memcpy(halves, flags, sizeof(flags));
-  // The factor's bits 56, 49 … 7 bring byte i's lowest bit to bit 56 + i; no two sums meet.
-  constexpr std::uint64_t kGather = 0x0102040810204080;
-  return std::uint16_t((halves[0] * kGather >> 56) | (halves[1] * kGather >> 56 << 8));
-}
-
-/// @throws Error bad_input unless all arrays of a query for packets are of one size, and `points`
-/// has every packet in full.
-void check_packets(std::size_t points, std::span<const std::uint32_t> packets,
-                   std::initializer_list<std::size_t> sizes);
 
 /// Where segments end, in parts of their length: to touch is to be occluded, and the distance that
 /// Embree computes is off by up to three of a float's last bits where there is no FMA.

@@ -2,6 +2,7 @@
 
 #include "reference/random_workcell.hpp"
 #include "vantage/volume/classify.hpp"
+#include "vantage/volume/voxel_surface.hpp"
 
 namespace vantage::test {
 namespace {
@@ -24,7 +25,7 @@ PlanningScene shadow_scene(std::uint32_t seed) {
 std::shared_ptr<const Scene> all_surfaces(std::uint32_t seed, const StateGrid& grid) {
   SceneBuilder builder;
   add_occluders(random_workcell(seed), grid, mode_of(seed), builder);
-  builder.add_mesh(grid.faces(VoxelState::shadow));
+  builder.add_mesh(voxel_faces(grid, VoxelState::shadow));
   return builder.build();
 }
 

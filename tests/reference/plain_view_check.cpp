@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "reference/plain_nearness.hpp"
+#include "vantage/volume/voxel_surface.hpp"
 
 namespace vantage::test {
 namespace {
@@ -69,7 +70,7 @@ ReferenceScene occupied_surfaces(const WorldModel& world, const StateGrid& grid)
   for (const KnownObject& object : world.static_structures) {
     scene.add(*object.mesh, object.T_world_object, next++);
   }
-  scene.add(grid.measured_faces(), {}, next);
+  scene.add(measured_faces(grid), {}, next);
   return scene;
 }
 
@@ -126,7 +127,7 @@ Rejection first_reason(const WorldModel& world, const StateGrid& grid,
   }
   if (state == VoxelState::shadow) return Rejection::inside_shadow;
   ReferenceScene shadow;
-  shadow.add(grid.faces(VoxelState::shadow), {}, 0);
+  shadow.add(voxel_faces(grid, VoxelState::shadow), {}, 0);
   if (judge.below(nearest_surface(shadow, centre), range.near_m)) {
     return Rejection::too_close_to_shadow;
   }

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "vantage/volume/smooth_surface.hpp"
+#include "vantage/volume/voxel_surface.hpp"
 #include "volume/make_grid.hpp"
 #include "volume/mesh_measures.hpp"
 
@@ -62,7 +63,7 @@ void expect_smooth(const StateGrid& grid, double tolerance) {
     farthest = std::max(farthest, distance_to_faces(grid, vertex));
   }
   CHECK(farthest < std::sqrt(3.0));
-  CHECK(test::area_m2(mesh) < test::area_m2(grid.faces(VoxelState::shadow)));
+  CHECK(test::area_m2(mesh) < test::area_m2(voxel_faces(grid, VoxelState::shadow)));
 }
 
 }  // namespace
@@ -96,14 +97,14 @@ TEST_CASE("no shadow has no surface, and threads make no difference") {
   const GridGeometry geometry = geometry_of(24, 24, 24);
   const auto none = shadow_where(geometry, [](const Eigen::Vector3i&) { return false; });
   CHECK(smooth_surface(*none, VoxelState::shadow).empty());
-  CHECK(none->faces(VoxelState::shadow).empty());
+  CHECK(voxel_faces(*none, VoxelState::shadow).empty());
 
   const tbb::global_control allow(tbb::global_control::max_allowed_parallelism, 8);
   const auto grid = make_grid(geometry, test::random_voxels(7));
   const auto at_threads = [&](int threads) {
     tbb::task_arena arena(threads);
     return arena.execute([&] {
-      return std::pair(smooth_surface(*grid, VoxelState::shadow), grid->faces(VoxelState::shadow));
+      return std::pair(smooth_surface(*grid, VoxelState::shadow), voxel_faces(*grid, VoxelState::shadow));
     });
   };
   const auto [smooth, faces] = at_threads(1);

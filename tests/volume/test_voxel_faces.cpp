@@ -4,6 +4,7 @@
 
 #include "volume/make_grid.hpp"
 #include "volume/mesh_measures.hpp"
+#include "vantage/volume/voxel_surface.hpp"
 
 namespace vantage {
 namespace {
@@ -77,7 +78,7 @@ TEST_CASE("the faces of a state enclose its voxels exactly, and merge") {
     for (const VoxelState state :
          {VoxelState::free, VoxelState::occupied, VoxelState::shadow, VoxelState::revealed}) {
       CAPTURE(int(state));
-      const TriangleMesh faces = grid->faces(state);
+      const TriangleMesh faces = voxel_faces(*grid, state);
       CHECK(six_volumes(faces, geometry) == 6 * std::int64_t(grid->count(state)));
       const double face_m2 = std::pow(geometry.voxel_size_m(), 2);
       const std::size_t count = count_faces(*grid, state);
@@ -91,7 +92,7 @@ TEST_CASE("the faces of a state enclose its voxels exactly, and merge") {
 TEST_CASE("faces are merged into rectangles, also through blocks, leaves and tiles") {
   const GridGeometry geometry = geometry_of(150, 140, 136);
   const auto slab = shadow_where(geometry, box({3, 0, 0}, {147, 140, 136}));
-  const TriangleMesh faces = slab->faces(VoxelState::shadow);
+  const TriangleMesh faces = voxel_faces(*slab, VoxelState::shadow);
   CHECK(faces.triangles().size() == 12);
   CHECK(faces.vertices().size() == 8);
   CHECK(six_volumes(faces, geometry) == 6 * std::int64_t(slab->count(VoxelState::shadow)));
@@ -99,7 +100,7 @@ TEST_CASE("faces are merged into rectangles, also through blocks, leaves and til
   const auto step = shadow_where(geometry_of(20, 20, 20), [](const Eigen::Vector3i& v) {
     return v.z() >= 5 && v.z() < 12 && ((v.x() < 9 && v.y() < 17) || (v.x() < 18 && v.y() < 9));
   });
-  CHECK(step->faces(VoxelState::shadow).triangles().size() == 2 * (2 + 2 + 6));
+  CHECK(voxel_faces(*step, VoxelState::shadow).triangles().size() == 2 * (2 + 2 + 6));
 }
 
 TEST_CASE("the measured faces are those of the measured voxels") {
@@ -109,7 +110,7 @@ TEST_CASE("the measured faces are those of the measured voxels") {
   test::for_each_voxel(geometry,
                        [&](const Eigen::Vector3i& voxel) { measured += grid->measured(voxel); });
   CHECK(measured > 100);
-  CHECK(six_volumes(grid->measured_faces(), geometry) == 6 * measured);
+  CHECK(six_volumes(measured_faces(*grid), geometry) == 6 * measured);
 }
 
 TEST_CASE("the shadow's surface is open, but for the faces against solid voxels") {
@@ -118,7 +119,7 @@ TEST_CASE("the shadow's surface is open, but for the faces against solid voxels"
     const auto grid = make_grid(geometry, test::random_voxels(seed));
     for (const OccluderMode mode : {OccluderMode::voxels, OccluderMode::mesh}) {
       CAPTURE(int(mode));
-      const ShadowSurface surface = grid->shadow_surface(mode);
+      const ShadowSurface surface = shadow_surface(*grid, mode);
       CHECK(six_volumes(surface.open, geometry) + six_volumes(surface.covered, geometry) ==
             6 * std::int64_t(grid->count(VoxelState::shadow)));
       std::size_t open = 0, covered = 0, wrong = 0;

@@ -2,6 +2,7 @@
 
 #include "known_objects.hpp"
 #include "vantage/volume/shadow_volume.hpp"
+#include "vantage/volume/voxel_surface.hpp"
 
 namespace vantage {
 namespace {
@@ -29,9 +30,9 @@ void add_occluders(const WorldModel& world, const StateGrid& grid, OccluderMode 
                    SceneBuilder& builder) {
   if (mode == OccluderMode::mesh) {
     add_known_objects(world, builder);
-    builder.add_mesh(grid.measured_faces());
+    builder.add_mesh(measured_faces(grid));
   } else {
-    builder.add_mesh(grid.faces(VoxelState::occupied));
+    builder.add_mesh(voxel_faces(grid, VoxelState::occupied));
   }
 }
 

@@ -3,11 +3,15 @@
 #include <Eigen/Core>
 
 #include "blocks.hpp"
-#include "scan_lines.hpp"
 #include "vantage/raycore/box_projector.hpp"
 #include "vantage/raycore/points.hpp"
 
 namespace vantage::detail {
+
+/// The coordinate of a voxel's centre as the rays see it.
+inline float centre_coordinate(int index, double voxel_size_m) {
+  return float(voxel_size_m * (index + 0.5));
+}
 
 /// The voxels of a grid in the grid's own frame: metres from its origin. Everything is decided in
 /// this frame, so that floats are as precise for a work area far from the world's origin.

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 
+#include "grid_frame.hpp"
+
 namespace vantage::detail {
 namespace {
 

@@ -20,11 +20,6 @@ struct Crossing {
 std::vector<Crossing> scan_line_crossings(const PlacedTriangles& mesh, const CellRange& voxels,
                                           double voxel_size_m);
 
-/// The coordinate of a voxel's centre as the rays see it.
-inline float centre_coordinate(int index, double voxel_size_m) {
-  return float(voxel_size_m * (index + 0.5));
-}
-
 /// Rounded down, saturated well inside the range of int; without the function call that it takes on
 /// processors of before SSE 4.1.
 inline int floor_to_int(double value) {

@@ -10,7 +10,6 @@
 #include "mask_blocks.hpp"
 #include "state_masks.hpp"
 #include "vantage/raycore/error.hpp"
-#include "voxel_faces.hpp"
 
 namespace vantage {
 namespace detail {
@@ -117,21 +116,6 @@ std::shared_ptr<const StateGrid> StateGrid::with_revealed(
   openvdb::tools::prune(impl->shadow);
   openvdb::tools::prune(impl->revealed);
   return std::make_shared<const StateGrid>(std::move(impl));
-}
-
-TriangleMesh StateGrid::faces(VoxelState state) const {
-  return detail::with_voxels(*impl_, state, [&](const openvdb::MaskTree& voxels) {
-    return detail::voxel_faces(voxels, geometry());
-  });
-}
-
-TriangleMesh StateGrid::measured_faces() const {
-  return detail::voxel_faces(impl_->measured, geometry());
-}
-
-ShadowSurface StateGrid::shadow_surface(OccluderMode mode) const {
-  const auto& solid = mode == OccluderMode::voxels ? impl_->occupied : impl_->measured;
-  return detail::split_voxel_faces(impl_->shadow, solid, geometry());
 }
 
 }  // namespace vantage

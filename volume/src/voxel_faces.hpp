@@ -4,7 +4,7 @@
 
 #include "vantage/raycore/triangle_mesh.hpp"
 #include "vantage/volume/grid_geometry.hpp"
-#include "vantage/volume/state_grid.hpp"
+#include "vantage/volume/voxel_surface.hpp"
 
 namespace vantage::detail {
 

@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "vantage/planner/servo_refiner.hpp"
+#include "vantage/planner/shadow_view.hpp"
 #include "vantage/planner/view_scorer.hpp"
 #include "vantage/raycore/api.hpp"
 #include "vantage/raycore/box.hpp"

@@ -26,7 +26,7 @@ class VANTAGE_API PlanningScene {
   const Scene& occluders() const noexcept { return *occluders_; }
 
   /// The same objects under the same ids, then the open faces of the shadow, `shadow_object()`, and
-  /// the covered ones, `covered_object()` (`StateGrid::shadow_surface`). In front of a free voxel,
+  /// the covered ones, `covered_object()` (`shadow_surface`). In front of a free voxel,
   /// a ray's first hit says whether it meets shadow or something occupied.
   const Scene& surfaces() const noexcept { return *surfaces_; }
   ObjectId shadow_object() const noexcept { return ObjectId(occluders_->object_count()); }

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "vantage/planner/planning_scene.hpp"
-#include "vantage/planner/servo_refiner.hpp"
+#include "vantage/planner/shadow_view.hpp"
 #include "vantage/planner/view_scorer.hpp"
 #include "vantage/raycore/api.hpp"
 

@@ -8,7 +8,6 @@
 
 #include "vantage/raycore/api.hpp"
 #include "vantage/raycore/points.hpp"
-#include "vantage/raycore/triangle_mesh.hpp"
 #include "vantage/volume/grid_geometry.hpp"
 #include "vantage/volume/volume_options.hpp"
 #include "vantage/volume/volume_report.hpp"
@@ -21,12 +20,6 @@ enum class VoxelState : std::int32_t {
   occupied = 1,  ///< inside a known object, or at a measured surface
   shadow = 2,    ///< neither: no camera sees it
   revealed = 3,  ///< shadow that the suggested view would see
-};
-
-/// The faces of the shadow in two parts; triangles as from `StateGrid::faces`.
-struct ShadowSurface {
-  TriangleMesh open;     ///< what a ray from outside may meet
-  TriangleMesh covered;  ///< against solid voxels: a ray meets those first
 };
 
 namespace detail {
@@ -71,18 +64,6 @@ class VANTAGE_API StateGrid {
   /// @param seen 1 or 0 for each of `centres(VoxelState::shadow)`, in that order.
   /// @throws Error bad_input for another number of flags.
   std::shared_ptr<const StateGrid> with_revealed(std::span<const std::uint8_t> seen) const;
-
-  /// The faces between the voxels of a state and all others, world frame, outwards; coplanar
-  /// neighbours are merged into rectangles: triangles 2 r and 2 r + 1 are (a, b, c) and (a, c, d)
-  /// of the r-th rectangle's corners a, b, c, d.
-  TriangleMesh faces(VoxelState state) const;
-
-  /// The same for the measured part of the occupied voxels.
-  TriangleMesh measured_faces() const;
-
-  /// `faces(VoxelState::shadow)`, where those voxels are solid that `occluder_scene` makes boxes of
-  /// in this mode: all that are occupied, or the measured ones.
-  ShadowSurface shadow_surface(OccluderMode mode) const;
 
   /// Writes an OpenVDB file with the int32 grid `state`, and for programs that read no int32 grids
   /// the bool grids `occupied`, `shadow`, `revealed`, `measured` and `unseen` (true and active in

@@ -1,4 +1,4 @@
-#include "command.hpp"
+#include "run_options.hpp"
 
 #include <chrono>
 
