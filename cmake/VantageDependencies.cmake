@@ -9,7 +9,7 @@ find_package(nlohmann_json REQUIRED)
 find_package(Qhull REQUIRED)
 find_package(nanoflann REQUIRED)
 
-# Debian 12 has Embree 3.13, Debian 13 has 4.3: raycore/src/embree.hpp hides the difference.
+# Debian 12 has Embree 3.13, Debian 13 has 4.3: raycore/src/scene/embree.hpp hides the difference.
 find_package(embree REQUIRED)
 if(NOT EMBREE_VERSION_MAJOR MATCHES "^[34]$")
   message(FATAL_ERROR "Embree ${EMBREE_VERSION} found; vantage is written for Embree 3 and 4")

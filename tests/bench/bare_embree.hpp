@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "embree.hpp"
+#include "scene/embree.hpp"
 #include "vantage/raycore/scene.hpp"
 #include "workload.hpp"
 

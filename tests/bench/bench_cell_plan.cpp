@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-#include "planning_cell.hpp"
+#include "evaluate/planning/planning_cell.hpp"
 #include "vantage/planner/plan.hpp"
 #include "vantage/raycore/error.hpp"
 #include "vantage/volume/classify.hpp"

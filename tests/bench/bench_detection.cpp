@@ -5,7 +5,7 @@
 
 #include <opencv2/imgproc.hpp>
 
-#include "opencv_aruco.hpp"
+#include "features/opencv_aruco.hpp"
 #include "support/board_picture.hpp"
 #include "vantage/reconstruction/detector.hpp"
 

@@ -17,7 +17,7 @@
 #include "reference/random_scene.hpp"
 #include "seen_scene.hpp"
 #include "timing.hpp"
-#include "vantage/raycore/seen_space.hpp"
+#include "vantage/raycore/unobserved_space.hpp"
 
 namespace vantage::bench {
 namespace {

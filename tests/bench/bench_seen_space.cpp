@@ -12,7 +12,7 @@
 #include "bare_embree.hpp"
 #include "seen_scene.hpp"
 #include "timing.hpp"
-#include "vantage/raycore/seen_space.hpp"
+#include "vantage/raycore/unobserved_space.hpp"
 
 namespace vantage::bench {
 namespace {

@@ -9,10 +9,10 @@
 #include <vector>
 
 #include "bare_embree.hpp"
-#include "simulator/color_sensor.hpp"
-#include "simulator/depth_sensor.hpp"
-#include "simulator/normal_noise.hpp"
-#include "simulator/sample_hash.hpp"
+#include "simulator/color/color_sensor.hpp"
+#include "simulator/depth/depth_sensor.hpp"
+#include "simulator/depth/normal_noise.hpp"
+#include "simulator/scene/sample_hash.hpp"
 #include "timing.hpp"
 #include "workload.hpp"
 

@@ -10,7 +10,7 @@
 #include <string>
 
 #include "bench_planner_scenes.hpp"
-#include "evaluation/planning_numbers.hpp"
+#include "metrics/planning/planning_numbers.hpp"
 #include "scaling_plot.hpp"
 #include "timing.hpp"
 #include "vantage/planner/view_search.hpp"

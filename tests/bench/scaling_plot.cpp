@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "evaluation/plot_axis.hpp"
-#include "evaluation/plot_marks.hpp"
-#include "evaluation/svg.hpp"
+#include "metrics/plot/plot_axis.hpp"
+#include "metrics/plot/plot_marks.hpp"
+#include "metrics/plot/svg.hpp"
 
 namespace vantage::bench {
 namespace {

@@ -5,8 +5,8 @@
 #include "vantage/raycore/box.hpp"
 #include "vantage/raycore/camera.hpp"
 #include "vantage/raycore/depth_image.hpp"
-#include "vantage/raycore/depth_lattice.hpp"
 #include "vantage/raycore/triangle_mesh.hpp"
+#include "vantage/raycore/visibility_mesh.hpp"
 
 namespace vantage::bench {
 

@@ -11,7 +11,7 @@
 #include <cstdint>
 #include <cstdlib>
 
-#include "mesh_readers.hpp"
+#include "mesh/mesh_readers.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace vantage;

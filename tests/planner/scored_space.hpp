@@ -3,7 +3,7 @@
 #include <memory>
 
 #include "vantage/planner/mesh_scorer.hpp"
-#include "vantage/raycore/seen_space.hpp"
+#include "vantage/raycore/unobserved_space.hpp"
 #include "vantage/volume/shadow_filter.hpp"
 
 namespace vantage::test {

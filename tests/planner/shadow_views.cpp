@@ -1,4 +1,4 @@
-#include "shadow_views.hpp"
+#include "planner/shadow_views.hpp"
 
 #include "reference/random_workcell.hpp"
 #include "vantage/volume/classify.hpp"

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "vantage/raycore/seen_space.hpp"
+#include "vantage/raycore/unobserved_space.hpp"
 
 namespace vantage::test {
 

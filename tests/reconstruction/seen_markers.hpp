@@ -5,7 +5,7 @@
 #include <numbers>
 #include <vector>
 
-#include "pose_fit.hpp"
+#include "pose/pose_fit.hpp"
 #include "reconstruction/normal.hpp"
 #include "reference/random_scene.hpp"
 #include "vantage/reconstruction/marker.hpp"

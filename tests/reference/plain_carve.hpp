@@ -2,7 +2,7 @@
 
 #include <span>
 
-#include "vantage/raycore/depth_lattice.hpp"
+#include "vantage/raycore/visibility_mesh.hpp"
 #include "vantage/volume/grid_geometry.hpp"
 
 namespace vantage::test {

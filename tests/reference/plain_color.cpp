@@ -6,7 +6,7 @@
 #include <limits>
 #include <numbers>
 
-#include "simulator/sample_table.hpp"
+#include "simulator/color/sample_table.hpp"
 
 namespace vantage::test {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "reference/moller_trumbore.hpp"
 #include "reference/random_scene.hpp"
-#include "simulator/color_sensor.hpp"
+#include "simulator/color/color_sensor.hpp"
 
 namespace vantage::test {
 

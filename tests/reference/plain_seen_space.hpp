@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "vantage/raycore/box.hpp"
-#include "vantage/raycore/depth_lattice.hpp"
+#include "vantage/raycore/visibility_mesh.hpp"
 
 namespace vantage::test {
 

@@ -5,7 +5,7 @@
 #include "reference/random_scene.hpp"
 #include "vantage/raycore/box.hpp"
 #include "vantage/raycore/camera.hpp"
-#include "vantage/raycore/depth_lattice.hpp"
+#include "vantage/raycore/visibility_mesh.hpp"
 
 namespace vantage::test {
 

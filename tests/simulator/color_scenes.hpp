@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "reference/random_scene.hpp"
-#include "simulator/color_sensor.hpp"
+#include "simulator/color/color_sensor.hpp"
 #include "vantage/raycore/box.hpp"
 
 namespace vantage::test {

@@ -3,7 +3,7 @@
 #include <Eigen/Geometry>
 #include <array>
 
-#include "simulator/marker_print.hpp"
+#include "simulator/markers/marker_print.hpp"
 #include "vantage/raycore/solids.hpp"
 #include "vantage/reconstruction/marker.hpp"
 

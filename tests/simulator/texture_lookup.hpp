@@ -8,7 +8,7 @@
 #include <optional>
 #include <vector>
 
-#include "simulator/textured_mesh.hpp"
+#include "simulator/scene/textured_mesh.hpp"
 
 namespace vantage::test {
 

@@ -3,7 +3,7 @@
 #include <openvdb/openvdb.h>
 #include <openvdb/tools/Prune.h>
 
-#include "state_grid_impl.hpp"
+#include "grid/state_grid_impl.hpp"
 
 namespace vantage::test {
 namespace {

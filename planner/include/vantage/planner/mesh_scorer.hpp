@@ -8,7 +8,7 @@
 #include "vantage/planner/view_scorer.hpp"
 #include "vantage/raycore/api.hpp"
 #include "vantage/raycore/box.hpp"
-#include "vantage/raycore/depth_lattice.hpp"
+#include "vantage/raycore/visibility_mesh.hpp"
 #include "vantage/raycore/world_model.hpp"
 #include "vantage/volume/state_grid.hpp"
 #include "vantage/volume/visibility.hpp"

@@ -4,9 +4,9 @@
 #include <span>
 
 #include "vantage/raycore/api.hpp"
-#include "vantage/raycore/depth_lattice.hpp"
 #include "vantage/raycore/stop_token.hpp"
 #include "vantage/raycore/triangle_mesh.hpp"
+#include "vantage/raycore/visibility_mesh.hpp"
 #include "vantage/raycore/world_model.hpp"
 #include "vantage/volume/grid_geometry.hpp"
 #include "vantage/volume/state_grid.hpp"

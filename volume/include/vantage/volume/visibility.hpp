@@ -5,7 +5,7 @@
 #include "vantage/raycore/api.hpp"
 #include "vantage/raycore/box.hpp"
 #include "vantage/raycore/depth_image.hpp"
-#include "vantage/raycore/depth_lattice.hpp"
+#include "vantage/raycore/visibility_mesh.hpp"
 #include "vantage/volume/volume_options.hpp"
 
 namespace vantage {

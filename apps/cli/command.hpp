@@ -1,0 +1,24 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+
+#include "cli/exit_code.hpp"
+
+namespace vantage {
+
+/// What the verb on the command line does; set by the verb's callback while parsing.
+using Action = std::function<ExitCode()>;
+
+void add_plan_command(CLI::App& app, Action& action);
+void add_demo_command(CLI::App& app, Action& action);
+void add_simulate_command(CLI::App& app, Action& action);
+void add_reconstruct_command(CLI::App& app, Action& action);
+void add_render_command(CLI::App& app, Action& action);
+void add_evaluate_command(CLI::App& app, Action& action);
+void add_evaluate_planning(CLI::App& evaluate_verb, Action& action);
+void add_evaluate_reconstruction(CLI::App& evaluate_verb, Action& action);
+void add_evaluate_shadow_filters(CLI::App& evaluate_verb, Action& action);
+void add_evaluate_replay(CLI::App& evaluate_verb, Action& action);
+
+}  // namespace vantage

@@ -1,0 +1,177 @@
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <iostream>
+#include <memory>
+
+#include "cli/command.hpp"
+#include "cli/inputs_json.hpp"
+#include "cli/progress_line.hpp"
+#include "cli/signal_handler.hpp"
+#include "cli/workers.hpp"
+#include "evaluate/planning/planning_benchmark.hpp"
+#include "evaluate/planning/planning_json.hpp"
+#include "evaluate/planning/planning_options.hpp"
+#include "metrics/planning/planning_tables.hpp"
+#include "plan/plan_json.hpp"
+#include "vantage/raycore/file.hpp"
+#include "version.hpp"
+#include "workcell/volume_settings.hpp"
+
+namespace vantage {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+constexpr int kPictureWidth = 960;
+
+/// All scenes, with what was read for them.
+struct PlanningResult {
+  PlanningEvaluation evaluation;
+  std::vector<PagePicture> pictures;
+  std::vector<PlanRequest> requests;  ///< as the workcells have them
+  std::vector<fs::path> files;
+};
+
+PlanningSettings settings_of(const PlanningArguments& arguments) {
+  PlanningSettings settings = arguments.settings;
+  choose(arguments.methods, arguments.sets, settings);
+  settings.servo.check();
+  settings.polish.check();
+  if (!arguments.occluders.empty()) settings.occluders = occluder_mode_of(arguments.occluders);
+  const bool drawn = !arguments.folder.empty() && !arguments.no_pictures;
+  settings.picture_width = drawn ? kPictureWidth : 0;
+  return settings;
+}
+
+/// Every cell is loaded before the first is evaluated: what is wrong is said at once.
+std::vector<PlanningCell> load_cells(const PlanningArguments& arguments) {
+  std::vector<PlanningCell> cells;
+  for (const std::string& scene : arguments.scenes) {
+    cells.push_back(load_planning_cell(planning_cell_name(scene), depth_kind_of(arguments.depth),
+                                       arguments.seed));
+  }
+  return cells;
+}
+
+PlanningResult evaluate_cells(const std::vector<PlanningCell>& cells,
+                              const PlanningSettings& settings, const StopToken& stop) {
+  PlanningResult result;
+  for (const NamedMethod& method : settings.methods) {
+    result.evaluation.methods.push_back(method.name);
+  }
+  result.evaluation.servo_iterations = settings.servo.iterations;
+  result.evaluation.polished_views = settings.polish.views;
+  for (std::size_t i = 0; i < cells.size() && !stop.stop_requested(); ++i) {
+    EvaluatedScene one = evaluate_planning(cells[i], settings, stop);
+    for (PagePicture& picture : one.pictures) {
+      picture.scene = i;
+      result.pictures.push_back(std::move(picture));
+    }
+    result.evaluation.scenes.push_back(std::move(one.scene));
+    result.requests.push_back(cells[i].request);
+    result.files.insert(result.files.end(), cells[i].files.begin(), cells[i].files.end());
+  }
+  return result;
+}
+
+Json config_json(const PlanningArguments& arguments, const PlanningSettings& settings) {
+  return {
+      {"scenes", arguments.scenes},
+      {"depth", arguments.depth},
+      {"seed", arguments.seed},
+      {"candidates", settings.sets},
+      {"radii_m", settings.radii_m.empty() ? Json() : Json(settings.radii_m)},
+      {"servo",
+       {{"iterations", settings.servo.iterations}, {"image_width", settings.servo.image_width}}},
+      {"polish", {{"views", settings.polish.views}, {"image_width", settings.polish.image_width}}},
+      {"voxel_size_m", settings.voxel_size_m ? Json(*settings.voxel_size_m) : Json()}};
+}
+
+Json config_json(const PlanRequest& request) {
+  const Json all = config_of(request);
+  return {{"work_area", all["work_area"]},
+          {"movable_camera", camera_json(request)},
+          {"constraints", all["constraints"]},
+          {"volume", all["volume"]}};
+}
+
+Json json_of(const PlanningResult& result, const PlanningArguments& arguments,
+             const PlanningSettings& settings) {
+  Json json = planning_to_json(result.evaluation);
+  for (std::size_t i = 0; i < result.requests.size(); ++i) {
+    json["scenes"][i]["config"] = config_json(result.requests[i]);
+  }
+  Json timing = json["timing"];
+  json.erase("timing");
+  json["config"] = config_json(arguments, settings);
+  json["inputs"] = inputs_json(result.files);
+  json["timing"] = {{"threads", arguments.threads}, {"repeat", settings.repeat}};
+  json["timing"].update(timing);
+  return json;
+}
+
+std::vector<std::string> settings_text(const PlanningArguments& arguments,
+                                       const PlanningSettings& settings) {
+  return {fmt::format(
+      "vantage {}, servo of {} iterations, {} of the best views polished, {}, run times: {} of {}.",
+      kVersion, settings.servo.iterations, settings.polish.views,
+      arguments.threads > 0 ? fmt::format("{} threads", arguments.threads)
+                            : "as many threads as the machine has",
+      settings.repeat > 1 ? "medians" : "one run", settings.repeat)};
+}
+
+void write(const PlanningArguments& arguments, const PlanningSettings& settings,
+           const PlanningResult& result, const Json& json) {
+  const fs::path& folder = arguments.folder;
+  fs::create_directories(folder);
+  write_file(folder / "planning.json", json.dump(1) + "\n");
+  for (const std::string& set : settings.sets) {
+    write_file(folder / ("planning_" + set + ".svg"), run_time_chart(result.evaluation, set));
+  }
+  write_file(folder / "planning.html",
+             planning_page(result.evaluation, result.pictures, settings_text(arguments, settings)));
+  spdlog::info("wrote {}, planning.json and charts", (folder / "planning.html").string());
+}
+
+std::string text_of(const PlanningEvaluation& evaluation) {
+  std::string text;
+  for (const SceneEvaluation& scene : evaluation.scenes) {
+    for (const std::string& remark : remarks_on(scene)) text += remark + "\n\n";
+  }
+  for (const ReportTable& table : planning_tables(evaluation)) text += table_text(table) + "\n";
+  return text;
+}
+
+ExitCode evaluate(const PlanningArguments& arguments) {
+  const StopToken stop;
+  const Interrupt interrupt({stop});
+  const PlanningSettings settings = settings_of(arguments);
+  Workers workers(arguments.threads);
+  const PlanningResult result = workers.execute([&] {
+    const std::vector<PlanningCell> cells = load_cells(arguments);
+    const ProgressLine progress("evaluating", stop);
+    return evaluate_cells(cells, settings, stop);
+  });
+  if (stop.stop_requested()) return ExitCode::cancelled;
+  const Json json = json_of(result, arguments, settings);
+  if (!arguments.folder.empty()) write(arguments, settings, result, json);
+  std::cout << (arguments.json ? json.dump(1) + "\n" : text_of(result.evaluation)) << std::flush;
+  return ExitCode::ok;
+}
+
+}  // namespace
+
+void add_evaluate_planning(CLI::App& evaluate_verb, Action& action) {
+  CLI::App* verb = evaluate_verb.add_subcommand(
+      "planning",
+      "The thesis' chapter 9 on simulated workcells: which views the methods pick, how good they "
+      "are by the voxel method and in truth, and how long it takes");
+  const auto arguments = std::make_shared<PlanningArguments>();
+  arguments->add_to(*verb);
+  verb->parse_complete_callback(
+      [&action, arguments] { action = [=] { return evaluate(*arguments); }; });
+}
+
+}  // namespace vantage

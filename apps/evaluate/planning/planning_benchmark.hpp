@@ -1,0 +1,60 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "evaluate/planning/planning_cell.hpp"
+#include "metrics/planning/planning_evaluation.hpp"
+#include "metrics/planning/planning_page.hpp"
+#include "vantage/planner/plan.hpp"
+#include "vantage/raycore/stop_token.hpp"
+
+namespace vantage {
+
+/// A method under the name that tables have of it.
+struct NamedMethod {
+  std::string name;
+  MethodOptions options;
+};
+
+/// "voxel", "mesh", "light", "shadow" (D6), or "shadowD" and any power of the depth.
+/// @throws Error bad_input for another name.
+NamedMethod named_method(const std::string& name);
+
+/// Several, in their order.
+/// @throws Error bad_input for a name that is none, and one that is there twice.
+std::vector<NamedMethod> named_methods(const std::vector<std::string>& names);
+
+/// What `vantage evaluate planning` was asked for.
+struct PlanningSettings {
+  std::vector<NamedMethod> methods;  ///< the first is `voxel`
+  std::vector<std::string> sets;     ///< "full" first, "production"
+  std::vector<double> radii_m{};     ///< of the full set's three half-spheres; the production set
+                                     ///< has the first and the last. Empty: from the work area
+  ServoOptions servo = {};
+  PolishOptions polish = {};
+  std::optional<double> voxel_size_m{};     ///< none: the workcell's
+  std::optional<OccluderMode> occluders{};  ///< none: the workcell's, as is anti-aliasing then
+  int repeat = 1;                           ///< times that everything is timed
+  int picture_width = 0;                    ///< of the overviews; 0: none
+};
+
+/// Puts the methods and sets in order; `voxel` is always among them, because it is the measure.
+/// @throws Error bad_input for a name that is none, and one that is there twice.
+void choose(const std::vector<std::string>& methods, const std::vector<std::string>& sets,
+            PlanningSettings& settings);
+
+/// One scene with its pictures.
+struct EvaluatedScene {
+  SceneEvaluation scene;
+  std::vector<PagePicture> pictures;  ///< their `scene` is not set
+};
+
+/// Classifies the cell, lets every method pick a view from every set, and holds the picks against
+/// the voxel method and against the truth. Runs in the caller's task arena; all but the run times
+/// is the same at any number of threads. Without sense if `stop` was cancelled.
+/// @throws Error as `plan_next_view` does.
+EvaluatedScene evaluate_planning(const PlanningCell& cell, const PlanningSettings& settings,
+                                 const StopToken& stop);
+
+}  // namespace vantage

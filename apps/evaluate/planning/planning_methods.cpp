@@ -1,0 +1,74 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <charconv>
+
+#include "evaluate/planning/planning_benchmark.hpp"
+#include "vantage/raycore/error.hpp"
+
+namespace vantage {
+namespace {
+
+const std::vector<std::string> kSets{"full", "production"};
+
+void refuse_twice(const std::string& where, const std::vector<std::string>& names) {
+  for (auto name = names.begin(); name != names.end(); ++name) {
+    if (std::find(names.begin(), name, *name) == name) continue;
+    throw bad_input(where, fmt::format("found {} twice; name it once", *name));
+  }
+}
+
+/// The power of the depth that a name ends in.
+std::optional<double> power_in(const std::string& name, std::size_t begin) {
+  double power = 0;
+  const char *const first = name.data() + begin, *const last = name.data() + name.size();
+  const auto [end, error] = std::from_chars(first, last, power);
+  const bool valid = error == std::errc() && end == last && power >= 0 && power <= 16;
+  return valid ? std::optional(power) : std::nullopt;
+}
+
+}  // namespace
+
+NamedMethod named_method(const std::string& name) {
+  if (name == "shadow") return {"shadowD6", {.name = "shadow", .depth_power = 6}};
+  if (std::ranges::find(method_names(), name) != method_names().end()) {
+    return {name, {.name = name}};
+  }
+  for (const std::string method : {"shadow", "mesh"}) {
+    if (!name.starts_with(method + "D")) continue;
+    const auto power = power_in(name, method.size() + 1);
+    if (!power) continue;
+    return {fmt::format("{}D{}", method, *power),
+            {.name = method, .depth_power = *power, .mesh = {.weight = MeshWeight::depth}}};
+  }
+  throw bad_input("--methods",
+                  fmt::format("found '{}'; expected one of: {}; shadowD or meshD and a number from "
+                              "0 to 16 is that method with that power of the depth",
+                              name, fmt::join(method_names(), ", ")));
+}
+
+std::vector<NamedMethod> named_methods(const std::vector<std::string>& names) {
+  std::vector<NamedMethod> methods;
+  std::vector<std::string> full_names;
+  for (const std::string& name : names) {
+    methods.push_back(named_method(name));
+    full_names.push_back(methods.back().name);
+  }
+  refuse_twice("--methods", full_names);
+  return methods;
+}
+
+void choose(const std::vector<std::string>& methods, const std::vector<std::string>& sets,
+            PlanningSettings& settings) {
+  refuse_twice("--candidates", sets);
+  settings.methods = {named_method("voxel")};
+  for (NamedMethod& method : named_methods(methods)) {
+    if (method.name != "voxel") settings.methods.push_back(std::move(method));
+  }
+  for (const std::string& set : kSets) {
+    if (std::ranges::find(sets, set) != sets.end()) settings.sets.push_back(set);
+  }
+}
+
+}  // namespace vantage

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "cli/command.hpp"
+#include "evaluate/planning/planning_benchmark.hpp"
+
+namespace vantage {
+
+/// What `vantage evaluate planning` is given.
+struct PlanningArguments {
+  std::vector<std::string> scenes;
+  std::filesystem::path folder;
+  std::vector<std::string> methods{"voxel", "shadowD0", "shadowD3", "shadowD6",
+                                   "mesh",  "meshD6",   "light"};
+  std::vector<std::string> sets{"full", "production"};
+  std::string depth = "none", occluders;
+  std::uint64_t seed = 0;
+  PlanningSettings settings;
+  bool no_pictures = false, json = false;
+  int threads = 0;
+
+  void add_to(CLI::App& verb);
+};
+
+}  // namespace vantage

@@ -1,0 +1,191 @@
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <charconv>
+#include <iostream>
+#include <memory>
+
+#include "cli/command.hpp"
+#include "cli/inputs_json.hpp"
+#include "cli/number_checks.hpp"
+#include "cli/progress_line.hpp"
+#include "cli/signal_handler.hpp"
+#include "cli/workers.hpp"
+#include "evaluate/reconstruction/evaluation_report.hpp"
+#include "reconstruct/reconstruct_options.hpp"
+#include "vantage/raycore/error.hpp"
+#include "vantage/raycore/file.hpp"
+#include "workcell/random_objects.hpp"
+
+namespace vantage {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+struct EvaluateArguments {
+  fs::path dataset, workcell, folder;
+  std::vector<int> images;
+  std::vector<std::string> methods = kReconstructionMethods;
+  std::string sizes = "2-", subsets = "all";
+  ReconstructArguments how;
+  EvaluationSettings settings;
+  bool json = false;
+  int threads = 0;
+};
+
+std::size_t number_of(std::string_view text, const std::string& all) {
+  std::size_t number = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (error == std::errc() && end == text.data() + text.size() && number > 0) return number;
+  throw bad_input("--sizes", fmt::format("found '{}'; expected numbers of cameras like 3, 2-9 or "
+                                         "2- (two to all)",
+                                         all));
+}
+
+/// "3", "2-9" or "2-".
+void read_sizes(const std::string& text, EvaluationSettings& settings) {
+  const std::size_t dash = text.find('-');
+  const std::string_view view = text;
+  settings.least_cameras = number_of(view.substr(0, dash), text);
+  settings.most_cameras = settings.least_cameras;
+  if (dash == std::string::npos) return;
+  settings.most_cameras.reset();
+  if (dash + 1 < text.size()) settings.most_cameras = number_of(view.substr(dash + 1), text);
+}
+
+EvaluationSettings settings_of(const EvaluateArguments& arguments) {
+  EvaluationSettings settings = arguments.settings;
+  const ReconstructionSettings reconstruction = settings_of(arguments.how);
+  settings.observe = reconstruction.observe;
+  settings.reconstruct = reconstruction.options;
+  settings.covering = arguments.subsets == "covering";
+  read_sizes(arguments.sizes, settings);
+  for (const std::string& name : arguments.methods) {
+    settings.methods.push_back(reconstruction_method_of(name));
+  }
+  return settings;
+}
+
+Json config_json(const EvaluateArguments& arguments) {
+  Json config = config_of(arguments.how);
+  config.erase("method");
+  const EvaluationSettings& settings = arguments.settings;
+  const Disturbance& disturbance = settings.disturbance;
+  config.update({{"dataset", arguments.dataset.string()},
+                 {"workcell", arguments.workcell.string()},
+                 {"images", arguments.images},
+                 {"methods", arguments.methods},
+                 {"sizes", arguments.sizes},
+                 {"subsets", arguments.subsets},
+                 {"noise_px", disturbance.noise_px},
+                 {"drop", disturbance.drop},
+                 {"wrong_ids", disturbance.wrong_ids},
+                 {"seed", disturbance.seed},
+                 {"trials", settings.trials},
+                 {"correct_diameters", settings.correct}});
+  return config;
+}
+
+void write(const fs::path& folder, const Json& json, const std::string& plot) {
+  fs::create_directories(folder);
+  write_file(folder / "reconstruction.json", json.dump(1) + "\n");
+  write_file(folder / "reconstruction.svg", plot);
+  spdlog::info("wrote {} and reconstruction.svg", (folder / "reconstruction.json").string());
+}
+
+ExitCode evaluate(const EvaluateArguments& arguments) {
+  const StopToken stop;
+  const Interrupt interrupt({stop});
+  Workers workers(arguments.threads);
+  const EvaluationSettings settings = settings_of(arguments);
+  Workcell workcell = load_workcell(arguments.workcell);
+  place_random_objects(workcell);
+  const BopScene scene =
+      load_dataset(arguments.dataset, workcell, arguments.images, settings.observe);
+  const ReconstructionEvaluation evaluation = workers.execute([&] {
+    const ProgressLine progress("evaluating", stop);
+    return evaluate_reconstruction(scene, workcell, settings, stop);
+  });
+  if (stop.stop_requested()) return ExitCode::cancelled;
+
+  std::vector<fs::path> files = evaluation.files;
+  files.insert(files.end(), workcell.files.begin(), workcell.files.end());
+  files.insert(files.end(), scene.files.begin(), scene.files.end());
+  Json json = evaluation_to_json(evaluation);
+  json["config"] = config_json(arguments);
+  json["inputs"] = inputs_json(files);
+  if (!arguments.folder.empty()) {
+    const std::string name = fs::absolute(arguments.dataset).lexically_normal().string();
+    write(
+        arguments.folder, json,
+        plot_of_evaluation(evaluation, "Reconstruction of " + fs::path(name).filename().string()));
+  }
+  std::cout << (arguments.json ? json.dump(1) + "\n" : summary_of_evaluation(evaluation))
+            << std::flush;
+  return ExitCode::ok;
+}
+
+void add_disturbance_options(CLI::App& verb, EvaluationSettings& settings) {
+  Disturbance& disturbance = settings.disturbance;
+  verb.add_option("--noise-px", disturbance.noise_px,
+                  "Standard deviation added to what was detected, pixels")
+      ->check(number_from_zero());
+  verb.add_option("--drop", disturbance.drop, "Share of the detected features that is lost")
+      ->check(number_between(0.0, 1.0));
+  verb.add_option(
+          "--wrong-ids", disturbance.wrong_ids,
+          "Share of the markers, the board's too, that is read as another of the dictionary")
+      ->check(number_between(0.0, 1.0));
+  verb.add_option("--seed", disturbance.seed, "Of these; another seed, others")
+      ->capture_default_str();
+  verb.add_option("--trials", settings.trials, "Disturb each subset so often, each time otherwise")
+      ->check(CLI::Range(1, 100000))
+      ->capture_default_str();
+}
+
+void add_subset_options(CLI::App& verb, EvaluateArguments& arguments) {
+  verb.add_option("--methods", arguments.methods, "Which ones, e.g. svd,pnp")
+      ->delimiter(',')
+      ->check(CLI::IsMember(kReconstructionMethods))
+      ->capture_default_str();
+  verb.add_option("--sizes", arguments.sizes,
+                  "Subsets of so many cameras: 3, 2-9, or 2- for two to all")
+      ->capture_default_str();
+  verb.add_option("--subsets", arguments.subsets,
+                  "All of these sizes, or those that see every object that all cameras see")
+      ->check(CLI::IsMember({"all", "covering"}))
+      ->capture_default_str();
+  verb.add_option("--correct", arguments.settings.correct,
+                  "An estimate is correct if its MSSD is below this share of the object's diameter")
+      ->check(positive_number())
+      ->capture_default_str();
+}
+
+}  // namespace
+
+void add_evaluate_reconstruction(CLI::App& evaluate_verb, Action& action) {
+  CLI::App* verb = evaluate_verb.add_subcommand(
+      "reconstruction", "Errors of the methods over all subsets of a recording's cameras");
+  const auto arguments = std::make_shared<EvaluateArguments>();
+  verb->add_option("dataset", arguments->dataset, "BOP scene folder")->required();
+  verb->add_option("--workcell", arguments->workcell,
+                   "Workcell file (YAML) with knowledge_base; of a simulated dataset its own "
+                   "workcell.yaml, which has the truth. Else that is the dataset's scene_gt.json")
+      ->required();
+  verb->add_option("-o,--output", arguments->folder,
+                   "Folder for reconstruction.json and reconstruction.svg");
+  verb->add_option("--images", arguments->images, "Use these images of the dataset only, e.g. 0,2")
+      ->delimiter(',');
+  add_subset_options(*verb, *arguments);
+  arguments->how.add_to(*verb);
+  add_disturbance_options(*verb, arguments->settings);
+  verb->add_flag("--json", arguments->json, "Print reconstruction.json instead of a table");
+  verb->add_option("--threads", arguments->threads, "Threads to use (0: all)")
+      ->check(CLI::Range(0, 1024));
+  verb->parse_complete_callback(
+      [&action, arguments] { action = [=] { return evaluate(*arguments); }; });
+}
+
+}  // namespace vantage

@@ -1,0 +1,162 @@
+#include "evaluate/reconstruction/reconstruction_evaluation.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "evaluate/reconstruction/evaluation_truth.hpp"
+#include "metrics/reconstruction/pose_errors.hpp"
+#include "vantage/raycore/error.hpp"
+#include "workcell/marker_dictionaries.hpp"
+
+namespace vantage {
+namespace {
+
+constexpr std::size_t kMostRuns = 1'000'000;  // their errors are kept, and written
+
+/// A view that was located, with what it saw of the board, too: a board's marker that is misread
+/// may seem to be an object's.
+struct UsableView {
+  std::size_t image = 0;  ///< index
+  CameraView view;
+};
+
+std::vector<UsableView> usable_views(const ObservedScene& observed) {
+  std::vector<UsableView> usable;
+  for (std::size_t i = 0; i < observed.views.size(); ++i) {
+    if (!observed.views[i].T_world_cam) continue;
+    usable.push_back({i, observed.views[i]});
+    auto& all = usable.back().view.observations;
+    all.insert(all.end(), observed.board[i].begin(), observed.board[i].end());
+  }
+  return usable;
+}
+
+EvaluatedCamera camera_of(const BopImage& image, const CameraView& view,
+                          const CameraLocation& location) {
+  EvaluatedCamera camera{image.id, location.reason, view.observations.size()};
+  if (view.T_world_cam && image.T_world_cam) {
+    camera.translation_error_m = translation_error_m(*view.T_world_cam, *image.T_world_cam);
+    camera.rotation_error_rad = rotation_error_rad(*view.T_world_cam, *image.T_world_cam);
+  }
+  return camera;
+}
+
+/// Every key that the marker detector may read.
+std::vector<FeatureKey> readable_keys(const Workcell& workcell) {
+  std::vector<FeatureKey> keys;
+  for (const std::string& dictionary : dictionaries_of(workcell)) {
+    const int count = marker_count(dictionary, "dictionary");
+    for (int id = 0; id < count; ++id) keys.push_back(marker_key(dictionary, id));
+  }
+  return keys;
+}
+
+std::vector<FeatureKey> board_keys(const Workcell& workcell) {
+  std::vector<FeatureKey> keys;
+  if (!workcell.board) return keys;
+  for (const ObjectFeature& feature : workcell.board->features()) keys.push_back(feature.key);
+  return keys;
+}
+
+std::vector<EvaluatedMethod> methods_of(const EvaluationSettings& settings,
+                                        const KnowledgeBase& knowledge) {
+  std::vector<EvaluatedMethod> methods;
+  for (const ReconstructionMethod method : settings.methods) {
+    methods.push_back({kReconstructionMethods[std::size_t(method)],
+                       [method, &settings, &knowledge](std::span<const CameraView> views) {
+                         return reconstruct(method, views, knowledge, settings.reconstruct);
+                       }});
+  }
+  return methods;
+}
+
+std::vector<CameraSubset> subsets_of(const std::vector<CameraView>& views, const Judge& judge,
+                                     const EvaluationSettings& settings) {
+  auto subsets = camera_subsets(views.size(), settings.least_cameras,
+                                settings.most_cameras.value_or(views.size()));
+  if (settings.covering) subsets = covering_subsets(views, judge.truth(), subsets);
+  if (subsets.empty()) {
+    throw bad_input("--subsets covering",
+                    "no subset of these sizes sees every object that all cameras together see; "
+                    "allow more cameras with --sizes, or evaluate all subsets");
+  }
+  if (subsets.size() * settings.trials > kMostRuns) {
+    throw Error(ErrorCode::out_of_resources, "--trials",
+                fmt::format("{} trials of {} subsets are more than {} runs; ask for fewer",
+                            settings.trials, subsets.size(), kMostRuns));
+  }
+  return subsets;
+}
+
+std::vector<ScoredImage> scored_images(const BopScene& scene,
+                                       const std::vector<UsableView>& usable) {
+  std::vector<ScoredImage> images;
+  for (const UsableView& one : usable) {
+    const BopImage& image = scene.images[one.image];
+    images.push_back({one.view.lens.intrinsics(), image.T_world_cam.value_or(*one.view.T_world_cam),
+                      image.depth});
+  }
+  return images;
+}
+
+void summarise(ReconstructionEvaluation& evaluation) {
+  for (std::size_t m = 0; m < evaluation.methods.size(); ++m) {
+    std::map<std::size_t, std::vector<const SubsetRun*>> by_size;
+    std::vector<const SubsetRun*> all;
+    for (const SubsetRun& run : evaluation.runs) {
+      by_size[evaluation.subsets[run.subset].size()].push_back(&run);
+      all.push_back(&run);
+    }
+    for (const auto& [size, runs] : by_size) {
+      evaluation.methods[m].by_cameras[size] = summary_of(runs, m);
+    }
+    evaluation.methods[m].all = summary_of(all, m);
+  }
+}
+
+}  // namespace
+
+ReconstructionEvaluation evaluate_reconstruction(const BopScene& scene, const Workcell& workcell,
+                                                 const EvaluationSettings& settings,
+                                                 const StopToken& stop) {
+  settings.disturbance.check();
+  ReconstructionEvaluation evaluation;
+  const Judge judge(true_objects(workcell, scene, evaluation.files), settings.correct);
+  const ObservedScene observed = observe(scene, workcell, settings.observe, stop);
+  if (stop.stop_requested()) return evaluation;
+  evaluation.files.insert(evaluation.files.end(), observed.files.begin(), observed.files.end());
+  evaluation.truth = judge.truth();
+  evaluation.touching_pairs = judge.touching().size();
+  for (std::size_t i = 0; i < scene.images.size(); ++i) {
+    evaluation.cameras.push_back(
+        camera_of(scene.images[i], observed.views[i], observed.locations[i]));
+  }
+  check_cameras(scene, observed);
+
+  const std::vector<UsableView> usable = usable_views(observed);
+  std::vector<CameraView> views;
+  for (const UsableView& one : usable) {
+    views.push_back(one.view);
+    evaluation.images.push_back(scene.images[one.image].id);
+  }
+  evaluation.subsets = subsets_of(views, judge, settings);
+  const SubsetPlan plan{evaluation.subsets, settings.disturbance, settings.trials,
+                        readable_keys(workcell), board_keys(workcell)};
+  const auto methods = methods_of(settings, *workcell.knowledge);
+  evaluation.runs = evaluate_subsets(views, judge, methods, plan, stop);
+  if (stop.stop_requested()) return evaluation;
+
+  const std::vector<ScoredImage> images = scored_images(scene, usable);
+  std::vector<CameraView> undisturbed;
+  for (const UsableView& one : usable) undisturbed.push_back(observed.views[one.image]);
+  for (const EvaluatedMethod& method : methods) {
+    const Reconstruction all = method.reconstruct(undisturbed);
+    evaluation.methods.push_back(
+        {method.name, {}, {}, all, estimate_errors(judge, all), bop_scores(judge, all, images)});
+  }
+  summarise(evaluation);
+  return evaluation;
+}
+
+}  // namespace vantage

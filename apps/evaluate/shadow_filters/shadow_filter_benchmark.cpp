@@ -1,0 +1,69 @@
+#include "evaluate/shadow_filters/shadow_filter_benchmark.hpp"
+
+#include "simulator/scene/ground_truth.hpp"
+#include "vantage/raycore/error.hpp"
+#include "vantage/volume/carve.hpp"
+#include "vantage/volume/shadow_filter.hpp"
+
+namespace vantage {
+namespace {
+
+std::vector<DepthLattice> lattices_of(const PlanningCell& cell, const VisibilityOptions& options) {
+  std::vector<DepthLattice> lattices;
+  for (const Observer& observer : cell.world.cameras) {
+    if (observer.depth == nullptr) {
+      throw bad_input(cell.name, "camera \"" + observer.name +
+                                     "\" has no depth image; visibility meshes are made of them. "
+                                     "Expected +ideal or +noisy");
+    }
+    auto lattice =
+        visibility_lattice({observer.camera, observer.depth}, cell.request.work_area, options);
+    if (lattice) lattices.push_back(std::move(*lattice));
+  }
+  return lattices;
+}
+
+WorldModel known_of(const PlanningCell& cell) {
+  return {cell.world.objects, cell.world.static_structures, {}};
+}
+
+std::shared_ptr<const StateGrid> filtered(const StateGrid& grid, const ShadowFilter& filter) {
+  return large_shadow(*opened_shadow(grid, filter.opening_voxels), filter.least_m3);
+}
+
+}  // namespace
+
+std::vector<ShadowFilter> filters_of(const ShadowFilterSettings& settings) {
+  std::vector<ShadowFilter> filters;
+  for (const double offset : settings.offsets_sigmas)
+    for (const int opening : settings.openings_voxels)
+      for (const double least_cm3 : settings.least_cm3)
+        filters.push_back({offset, opening, 1e-6 * least_cm3});
+  return filters;
+}
+
+FilteredScene evaluate_shadow_filters(const PlanningCell& cell,
+                                      const ShadowFilterSettings& settings, const StopToken& stop) {
+  const auto geometry = GridGeometry::covering(cell.request.work_area, settings.voxel_size_m);
+  const GroundTruth truth(cell.scene, cell.cameras(), geometry);
+  const TrueShadow shadow(truth.grid());
+  FilteredScene scene{.name = cell.name};
+  std::optional<double> offset;
+  std::shared_ptr<const StateGrid> grid;
+  for (const ShadowFilter& filter : filters_of(settings)) {
+    if (offset != filter.offset_sigmas) {
+      offset = filter.offset_sigmas;
+      grid = carve(lattices_of(cell, {.step_px = settings.step_px,
+                                      .holes = settings.holes,
+                                      .offset_sigmas = *offset,
+                                      .noise = cell.request.volume.noise}),
+                   geometry, known_of(cell), stop);
+      if (grid == nullptr) return scene;
+    }
+    scene.scores.push_back(shadow.score(*filtered(*grid, filter)));
+  }
+  scene.hidden_m3 = scene.scores.front().true_m3 + scene.scores.front().missed_m3;
+  return scene;
+}
+
+}  // namespace vantage

@@ -1,0 +1,131 @@
+#include "plan/method_options.hpp"
+
+#include <fmt/format.h>
+
+#include <map>
+
+#include "cli/number_checks.hpp"
+
+namespace vantage {
+namespace {
+
+void add_travel_options(CLI::App& verb, MethodArguments& arguments) {
+  CLI::Option* from = verb.add_option("--from", arguments.from_m,
+                                      "X Y Z: where the camera is now, metres, world frame")
+                          ->expected(3);
+  verb.add_option("--travel-weight", arguments.travel_weight_per_m,
+                  "Cost of the journey: a score counts exp(-W d) times at a distance of d metres")
+      ->check(number_from_zero())
+      ->needs(from);
+}
+
+void add_view_count_options(CLI::App& verb, ViewCount& views) {
+  verb.add_option("--views", views.most, "Plan so many views, each for what those before it left")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  verb.add_option("--least-gain", views.least_gain_m3,
+                  "Stop before a further view that reveals less than this, m³")
+      ->check(number_from_zero());
+  verb.add_option("--least-gain-share", views.least_gain_share, "The same as a share of all shadow")
+      ->check(number_between(0.0, 1.0));
+}
+
+}  // namespace
+
+void add_mesh_options(CLI::App& verb, MeshOptions& mesh) {
+  static const std::map<std::string, DepthHoles> holes{{"fill", DepthHoles::fill},
+                                                       {"unknown", DepthHoles::unknown}};
+  verb.add_option("--mesh-step", mesh.visibility.step_px,
+                  "Of --method mesh: a vertex every so many pixels of the depth images")
+      ->check(CLI::Range(1, 64))
+      ->capture_default_str();
+  verb.add_option("--mesh-holes", mesh.visibility.holes,
+                  "Of --method mesh: pixels without a depth; fill: from the depths around them; "
+                  "unknown: they stay shadow")
+      ->transform(CLI::CheckedTransformer(holes))
+      ->default_str("fill");
+  verb.add_option("--mesh-offset", mesh.visibility.offset_sigmas,
+                  "Of --method mesh: measured surfaces move back by so many standard deviations of "
+                  "the depth, which takes away the false shadow that noise makes")
+      ->check(number_between(0.0, 100.0))
+      ->capture_default_str();
+  verb.add_option("--mesh-opening", mesh.opening_m,
+                  "Of --method mesh: what is unseen, but a cube of this edge does not fit in, "
+                  "counts as seen, metres: noise leaves such shadow, too; 0: all counts")
+      ->check(number_from_zero())
+      ->capture_default_str();
+  verb.add_option("--mesh-exact", mesh.exact_views,
+                  "Of --method mesh: with more views than this, servo iterations included, a "
+                  "shortlist of them is scored exactly")
+      ->check(number_from_zero())
+      ->capture_default_str();
+  verb.add_option("--mesh-shortlist", mesh.shortlist, "Of --method mesh: length of that shortlist")
+      ->check(CLI::Range(1, 1000000))
+      ->capture_default_str();
+}
+
+namespace {
+
+void add_weight_options(CLI::App& verb, MethodArguments& arguments) {
+  static const std::map<std::string, MeshWeight> weights{{"depth", MeshWeight::depth},
+                                                         {"volume", MeshWeight::volume}};
+  verb.add_option("--depth-power", arguments.depth_power,
+                  "Of --method shadow and mesh: pixels count depth^P; 0, 3 and 6 are the thesis' "
+                  "D0, D3, D6")
+      ->check(number_between(0.0, 16.0))
+      ->default_str(fmt::format("{:g}", arguments.method.depth_power));
+  verb.add_option("--mesh-weight", arguments.mesh_weight,
+                  "Of --method mesh: what unseen pixels count; volume: the volume behind them, by "
+                  "which views from different distances compare; depth: depth^P, as in the thesis")
+      ->transform(CLI::CheckedTransformer(weights))
+      ->default_str("volume, or depth if there is a --depth-power");
+}
+
+}  // namespace
+
+void MethodArguments::add_to(CLI::App& verb) {
+  verb.add_option(
+          "--method", method.name,
+          "What a view is worth; voxel: the volume that it would reveal; shadow: the shadow "
+          "on its image, weighted by distance; mesh: the volume that no depth image shows, "
+          "whatever stands there; light: unlit surface that it would light, to "
+          "compare with")
+      ->check(CLI::IsMember(method_names()))
+      ->capture_default_str();
+  add_weight_options(verb, *this);
+  verb.add_option("--servo", servo_iterations,
+                  "Iterations of simulated visual servoing for each candidate; 0: none")
+      ->check(CLI::Range(0, 100))
+      ->capture_default_str();
+  verb.add_option("--servo-width", servo_width, "Width of the images for servoing, pixels")
+      ->check(CLI::Range(16, 16384))
+      ->capture_default_str();
+  verb.add_option("--polish", polished_views,
+                  "So many of the best views are moved around the shadow and turned, as long as "
+                  "that makes them better; 0: none")
+      ->check(CLI::Range(0, 1000))
+      ->capture_default_str();
+  verb.add_option("--ranked", ranked, "So many of the best are found for certain, in their order")
+      ->check(CLI::Range(1, 1000000))
+      ->capture_default_str();
+  add_mesh_options(verb, method.mesh);
+  add_travel_options(verb, *this);
+  add_view_count_options(verb, views);
+}
+
+void MethodArguments::apply(PlanRequest& request) const {
+  request.method = method;
+  if (depth_power) request.method.depth_power = *depth_power;
+  request.method.mesh.weight =
+      mesh_weight.value_or(depth_power ? MeshWeight::depth : method.mesh.weight);
+  request.method.mesh.visibility.noise = request.volume.noise;
+  request.servo = {servo_iterations, servo_width};
+  request.polish.views = polished_views;
+  request.search.ranked = ranked;
+  if (!from_m.empty()) {
+    request.search.travel = TravelCost{travel_weight_per_m, {from_m[0], from_m[1], from_m[2]}};
+  }
+  request.views = views;
+}
+
+}  // namespace vantage

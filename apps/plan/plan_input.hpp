@@ -1,0 +1,46 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "plan/candidate_options.hpp"
+#include "plan/plan_json.hpp"
+#include "plan/plan_world.hpp"
+#include "vantage/planner/plan.hpp"
+#include "vantage/raycore/world_model.hpp"
+
+namespace vantage {
+
+/// What `vantage plan` was asked for. What is set here wins over the workcell file.
+struct PlanOptions {
+  std::filesystem::path dataset;
+  std::filesystem::path workcell;  ///< empty: none
+  std::vector<double> work_area;   ///< x0 y0 z0 x1 y1 z1; empty: from the workcell
+  std::vector<int> images;         ///< empty: all of the dataset
+  ObjectSource objects = {};
+  std::vector<double> depth_range;  ///< near, far of all cameras; empty: from the workcell
+  CandidateOptions candidates = {};
+  std::optional<double> voxel_size_m;
+  std::string occluders;                 ///< mesh or voxels; empty: from the workcell
+  std::string anti_alias;                ///< on or off; empty: from the workcell
+  std::optional<double> band_sigmas;     ///< none: from the workcell
+  std::optional<double> depth_noise_px;  ///< of the stereo matching; none: from the workcell
+};
+
+/// All that planning needs.
+struct PlanInput {
+  WorldModel world;
+  PlanRequest request;
+  PlanRecord record;
+  std::vector<std::string> warnings;
+};
+
+/// Loads the dataset and the workcell, and finds the objects if they are not given. Runs in the
+/// caller's task arena.
+/// @throws Error bad_input as `load_plan_world` and `load_workcell` do, and for options that do not
+/// make sense.
+PlanInput load_plan_input(const PlanOptions& options, const StopToken& stop = {});
+
+}  // namespace vantage

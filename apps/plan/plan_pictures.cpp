@@ -1,0 +1,146 @@
+#include "plan/plan_pictures.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "plan/overview_camera.hpp"
+#include "plan/plan_shapes.hpp"
+#include "vantage/raycore/image_io.hpp"
+#include "vantage/raycore/mesh_io.hpp"
+#include "vantage/raycore/picture.hpp"
+#include "vantage/raycore/scene_builder.hpp"
+
+namespace vantage {
+namespace {
+
+const Eigen::Vector3f kFloor(0.90f, 0.90f, 0.91f);
+constexpr int kSamplesPerPixel = 64;
+
+/// The mean of two pictures of one size, `share` of it from the first.
+ColorImage blended(const ColorImage& a, const ColorImage& b, double share) {
+  ColorImage result = a;
+  for (std::size_t i = 0; i < result.samples.size(); ++i) {
+    result.samples[i] =
+        std::uint8_t(std::lround(share * a.samples[i] + (1 - share) * b.samples[i]));
+  }
+  return result;
+}
+
+/// A scene to draw, with its objects' looks.
+class Stage {
+ public:
+  explicit Stage(const Plan& plan) : plan_(plan) {}
+
+  void add_voxels() {
+    const GridGeometry& geometry = plan_.grid->geometry();
+    for (const ColoredMesh& part : voxel_meshes(*plan_.grid)) {
+      Material material{part.color};
+      material.line_spacing_m = float(geometry.voxel_size_m());
+      material.line_width_m = 0.1f * material.line_spacing_m;
+      material.line_shade = 0.55f;
+      material.line_origin = geometry.origin().cast<float>();
+      if (part.opacity < 1) opacity_ = double(part.opacity);
+      (part.opacity < 1 ? veil_ : props_).push_back({part.mesh, material});
+    }
+  }
+
+  void add_cameras(const WorldModel& world) {
+    for (const ColoredMesh& part : camera_meshes(plan_, world)) {
+      props_.push_back({part.mesh, {part.color}});
+    }
+  }
+
+  void add_floor() {
+    const double scale = scale_of(plan_), side = 40 * scale;
+    const Eigen::Vector3d centre = plan_.request.work_area.centre();
+    const double top = std::min(0.0, plan_.request.work_area.min().z()) - 1e-3 * scale;
+    Material material{kFloor};
+    material.line_spacing_m = 0.1f;
+    material.line_width_m = 0.002f;
+    material.line_shade = 0.85f;
+    material.fade_centre = Eigen::Vector3d(centre.x(), centre.y(), top).cast<float>();
+    material.fade_from_m = float(2 * scale);
+    material.fade_to_m = float(7 * scale);
+    const Box slab(Eigen::Vector3d(centre.x() - side, centre.y() - side, top - 0.1),
+                   Eigen::Vector3d(centre.x() + side, centre.y() + side, top));
+    props_.push_back({TriangleMesh::from_box(slab), material});
+  }
+
+  /// Draws everything, and once more without what is half transparent, and lays one over the other.
+  /// @returns nothing if it was stopped.
+  std::optional<ColorImage> draw(const PinholeCamera& camera, const StopToken& stop) const {
+    std::vector<Prop> all = props_;
+    all.insert(all.end(), veil_.begin(), veil_.end());
+    const auto with_veil = picture(all, camera, opacity_, stop);
+    const auto without = picture(props_, camera, 1 - opacity_, stop);
+    if (!with_veil || !without) return std::nullopt;
+    return blended(*with_veil, *without, opacity_);
+  }
+
+ private:
+  struct Prop {
+    TriangleMesh mesh;
+    Material material;
+  };
+
+  /// `share` of the samples is enough for a picture that is `share` of the result.
+  std::optional<ColorImage> picture(const std::vector<Prop>& props, const PinholeCamera& camera,
+                                    double share, const StopToken& stop) const {
+    PictureOptions options;
+    options.samples_per_pixel = int(std::lround(kSamplesPerPixel * share));
+    options.sky_reach_m = float(1.2 * scale_of(plan_));
+    // From above, over the viewer's left shoulder: what is seen is lit, and shadows fall aside.
+    const Eigen::Matrix3d& R = camera.T_world_cam().rotation();
+    const Eigen::Vector3d back =
+        (-R.col(2) - 0.9 * R.col(0)).cwiseProduct(Eigen::Vector3d(1, 1, 0));
+    options.to_sun = (back.normalized() + Eigen::Vector3d(0, 0, 1.25)).cast<float>();
+    SceneBuilder builder;
+    std::vector<Material> materials;
+    for (const Prop& prop : props) {
+      builder.add_mesh(prop.mesh);
+      materials.push_back(prop.material);
+    }
+    return render_picture(*builder.build(), materials, camera, options, stop);
+  }
+
+  const Plan& plan_;
+  std::vector<Prop> props_;
+  std::vector<Prop> veil_;  ///< what is drawn half transparent: one sees what stands inside
+  double opacity_ = 1;      ///< of the veil
+};
+
+}  // namespace
+
+std::optional<ColorImage> overview(const Plan& plan, const WorldModel& world, int width,
+                                   const StopToken& stop) {
+  Stage stage(plan);
+  stage.add_voxels();
+  stage.add_cameras(world);
+  stage.add_floor();
+  return stage.draw(overview_camera(plan, world, width), stop);
+}
+
+void write_overview(const std::filesystem::path& path, const Plan& plan, const WorldModel& world,
+                    int width, const StopToken& stop) {
+  if (const auto image = overview(plan, world, width, stop)) write_png(path, *image);
+}
+
+void write_suggested_view(const std::filesystem::path& path, const Plan& plan,
+                          const StopToken& stop) {
+  Stage stage(plan);
+  stage.add_voxels();
+  stage.add_floor();
+  const auto image = stage.draw(suggested_cameras(plan).at(0), stop);
+  if (image) write_png(path, *image);
+}
+
+void write_scene_model(const std::filesystem::path& path, const Plan& plan,
+                       const WorldModel& world) {
+  std::vector<ColoredMesh> meshes = voxel_meshes(*plan.grid);
+  for (ColoredMesh& mesh : camera_meshes(plan, world)) meshes.push_back(std::move(mesh));
+  write_glb(path, meshes);
+}
+
+}  // namespace vantage

@@ -1,0 +1,128 @@
+#include <spdlog/spdlog.h>
+
+#include <fmt/format.h>
+
+#include <iostream>
+#include <memory>
+
+#include "cli/command.hpp"
+#include "cli/progress_line.hpp"
+#include "cli/run_time.hpp"
+#include "cli/signal_handler.hpp"
+#include "cli/workers.hpp"
+#include "reconstruct/overlay_picture.hpp"
+#include "reconstruct/reconstruct_options.hpp"
+#include "reconstruct/world_json.hpp"
+#include "vantage/raycore/file.hpp"
+#include "vantage/raycore/image_io.hpp"
+
+namespace vantage {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct ReconstructCommand {
+  fs::path dataset, workcell, folder;
+  std::vector<int> images;
+  ReconstructArguments how;
+  bool json = false, no_pictures = false;
+  int threads = 0;
+};
+
+void write_overlays(const BopScene& scene, const SceneReconstruction& reconstruction,
+                    const std::vector<KnownObject>& objects, const fs::path& folder,
+                    const StopToken& stop) {
+  const OverlayPainter painter(scene, reconstruction, objects);
+  for (std::size_t i = 0; i < scene.images.size() && !stop.stop_requested(); ++i) {
+    if (scene.images[i].color.empty()) continue;
+    const fs::path file = folder / fmt::format("overlay_{:06}.png", scene.images[i].id);
+    write_png(file, painter.paint(i));
+    spdlog::info("wrote {}", file.string());
+  }
+}
+
+void warn_of(const BopScene& scene, const SceneReconstruction& reconstruction) {
+  for (std::size_t i = 0; i < scene.images.size(); ++i) {
+    const CameraLocation& location = reconstruction.observed.locations[i];
+    if (!location.reason.empty()) {
+      spdlog::warn("image {} is of no use: {}", scene.images[i].id, location.reason);
+    }
+  }
+}
+
+WorldRecord record_of(const ReconstructCommand& command, const BopScene& scene,
+                      const Workcell& workcell, const SceneReconstruction& reconstruction) {
+  WorldRecord record{workcell.files, config_of(command.how), 0, 0};
+  record.config["dataset"] = command.dataset.string();
+  record.config["workcell"] = command.workcell.string();
+  record.config["images"] = command.images;
+  for (const auto* files : {&scene.files, &reconstruction.observed.files}) {
+    record.inputs.insert(record.inputs.end(), files->begin(), files->end());
+  }
+  return record;
+}
+
+ExitCode reconstruct_command(const ReconstructCommand& command) {
+  const auto start = StopToken::Clock::now();
+  const StopToken stop;
+  const Interrupt interrupt({stop});
+  Workers workers(command.threads);
+  const ReconstructionSettings settings = settings_of(command.how);
+  const Workcell workcell = load_workcell(command.workcell);
+  const BopScene scene = load_dataset(command.dataset, workcell, command.images, settings.observe);
+  const double load_s = seconds_since(start);
+
+  const SceneReconstruction reconstruction = workers.execute([&] {
+    const ProgressLine progress("reconstructing", stop);
+    stop.expect(scene.images.size());
+    return reconstruct_scene(scene, workcell, settings, stop);
+  });
+  if (stop.stop_requested()) return ExitCode::cancelled;
+  warn_of(scene, reconstruction);
+  const std::vector<KnownObject> objects = known_objects(reconstruction.result);
+  WorldRecord record = record_of(command, scene, workcell, reconstruction);
+  record.load_s = load_s;
+  record.total_s = seconds_since(start);
+  const auto json = world_to_json(scene, workcell, reconstruction, objects, record);
+  if (!command.folder.empty()) {
+    fs::create_directories(command.folder);
+    write_file(command.folder / "world.json", json.dump(1) + "\n");
+    spdlog::info("wrote {}", (command.folder / "world.json").string());
+  }
+  std::cout << (command.json ? json.dump(1) + "\n" : summary_of_world(json)) << std::flush;
+  if (!command.folder.empty() && !command.no_pictures) {
+    workers.execute([&] { write_overlays(scene, reconstruction, objects, command.folder, stop); });
+  }
+  return stop.stop_requested() ? ExitCode::cancelled : ExitCode::ok;
+}
+
+}  // namespace
+
+void add_reconstruct_command(CLI::App& app, Action& action) {
+  CLI::App* verb = app.add_subcommand(
+      "reconstruct", "Find the cameras and the known objects of a recording, by their features");
+  const auto command = std::make_shared<ReconstructCommand>();
+  verb->add_option("dataset", command->dataset,
+                   "BOP scene folder; or one with photographs, if there is a calibration")
+      ->required();
+  verb->add_option("--workcell", command->workcell,
+                   "Workcell file (YAML) with knowledge_base, and board if cameras have no poses")
+      ->required();
+  verb->add_option("-o,--output", command->folder, "Folder for world.json and pictures");
+  verb->add_option("--images", command->images, "Use these images of the dataset only, e.g. 0,2")
+      ->delimiter(',');
+  verb->add_option("--method", command->how.method,
+                   "pnp: all cameras' pixels at once; voting: mixes kinds of features; svd: the "
+                   "baseline")
+      ->check(CLI::IsMember(kReconstructionMethods))
+      ->capture_default_str();
+  command->how.add_to(*verb);
+  verb->add_flag("--no-pictures", command->no_pictures, "No overlay_*.png");
+  verb->add_flag("--json", command->json, "Print world.json on stdout instead of a summary");
+  verb->add_option("--threads", command->threads, "Threads to use (0: all)")
+      ->check(CLI::Range(0, 1024));
+  verb->parse_complete_callback(
+      [&action, command] { action = [=] { return reconstruct_command(*command); }; });
+}
+
+}  // namespace vantage

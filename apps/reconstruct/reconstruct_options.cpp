@@ -1,0 +1,58 @@
+#include "reconstruct/reconstruct_options.hpp"
+
+#include "cli/number_checks.hpp"
+
+namespace vantage {
+
+void ReconstructArguments::add_to(CLI::App& verb) {
+  verb.add_option("--cameras", cameras,
+                  "Where cameras are: by the dataset's poses, by the board's markers, or auto: by "
+                  "the board where the dataset has no pose")
+      ->check(CLI::IsMember({"auto", "board", "dataset"}))
+      ->capture_default_str();
+  verb.add_option("--calibration", calibrations,
+                  "OpenCV calibration: one file for all cameras, or one for each image; wins over "
+                  "the workcell's")
+      ->delimiter(',');
+  verb.add_option("--features", features,
+                  "What other detectors saw: JSON lines, see assets/schema/observation.schema.json")
+      ->delimiter(',');
+  verb.add_flag("--no-markers", no_markers, "Do not look for markers in the pictures")
+      ->needs(verb.get_option("--features"));
+  verb.add_option("--inlier-px", inlier_px,
+                  "Features whose residuals are above belong to something else")
+      ->check(positive_number())
+      ->capture_default_str();
+  verb.add_flag("--no-ambiguous", no_ambiguous,
+                "Leave out what one camera sees by one marker, which may be tilted two ways");
+}
+
+ReconstructionSettings settings_of(const ReconstructArguments& arguments) {
+  ReconstructionSettings settings;
+  settings.method = reconstruction_method_of(arguments.method);
+  settings.observe.calibrations = arguments.calibrations;
+  settings.observe.observations = arguments.features;
+  settings.observe.detect_markers = !arguments.no_markers;
+  settings.observe.cameras = camera_source_of(arguments.cameras);
+  settings.observe.locate.inlier_px = arguments.inlier_px;
+  settings.options.inlier_px = arguments.inlier_px;
+  settings.options.keep_ambiguous = !arguments.no_ambiguous;
+  return settings;
+}
+
+nlohmann::ordered_json config_of(const ReconstructArguments& arguments) {
+  const auto names = [](const std::vector<std::filesystem::path>& files) {
+    nlohmann::ordered_json list = nlohmann::ordered_json::array();
+    for (const auto& file : files) list.push_back(file.string());
+    return list;
+  };
+  return {{"method", arguments.method},
+          {"cameras", arguments.cameras},
+          {"calibration", names(arguments.calibrations)},
+          {"features", names(arguments.features)},
+          {"detect_markers", !arguments.no_markers},
+          {"inlier_px", arguments.inlier_px},
+          {"keep_ambiguous", !arguments.no_ambiguous}};
+}
+
+}  // namespace vantage

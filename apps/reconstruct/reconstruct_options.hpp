@@ -1,0 +1,31 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "reconstruct/scene_reconstruction.hpp"
+
+namespace vantage {
+
+/// What the command line says of reconstructing; verbs that reconstruct share it.
+struct ReconstructArguments {
+  std::string method = "pnp";
+  std::string cameras = "auto";
+  std::vector<std::filesystem::path> calibrations, features;
+  bool no_markers = false, no_ambiguous = false;
+  double inlier_px = ReconstructOptions().inlier_px;
+
+  /// All but --method, whose name verbs differ in.
+  void add_to(CLI::App& verb);
+};
+
+/// @throws Error bad_input for a method or a camera source that does not exist.
+ReconstructionSettings settings_of(const ReconstructArguments& arguments);
+
+/// For world.json's `config`.
+nlohmann::ordered_json config_of(const ReconstructArguments& arguments);
+
+}  // namespace vantage

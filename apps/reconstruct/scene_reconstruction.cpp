@@ -1,0 +1,82 @@
+#include "reconstruct/scene_reconstruction.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <chrono>
+
+#include "vantage/raycore/error.hpp"
+
+namespace vantage {
+namespace {
+
+void check_knowledge(const Workcell& workcell) {
+  const auto& types = workcell.knowledge->types();
+  const bool recognisable = std::any_of(types.begin(), types.end(),
+                                        [](const TypePtr& t) { return !t->features.empty(); });
+  if (recognisable) return;
+  throw bad_input(workcell.files.empty() ? "workcell" : workcell.files.front().string(),
+                  types.empty()
+                      ? "there is no knowledge_base, so nothing is known by which objects "
+                        "could be recognised; name its file in the workcell"
+                      : "no type of the knowledge base has features, by which objects "
+                        "could be recognised");
+}
+
+}  // namespace
+
+void check_cameras(const BopScene& scene, const ObservedScene& observed) {
+  std::vector<std::string> reasons;
+  for (std::size_t i = 0; i < scene.images.size(); ++i) {
+    if (observed.views[i].T_world_cam) return;
+    reasons.push_back(
+        fmt::format("image {}: {}", scene.images[i].id, observed.locations[i].reason));
+  }
+  throw bad_input(scene.folder.string(),
+                  fmt::format("no camera could be located by the workcell's board: {}",
+                              fmt::join(reasons, "; ")));
+}
+
+ReconstructionMethod reconstruction_method_of(const std::string& name) {
+  const auto found = std::find(kReconstructionMethods.begin(), kReconstructionMethods.end(), name);
+  if (found != kReconstructionMethods.end()) {
+    return ReconstructionMethod(found - kReconstructionMethods.begin());
+  }
+  throw bad_input("--method", fmt::format("found {}; expected one of {}", name,
+                                          fmt::join(kReconstructionMethods, ", ")));
+}
+
+Reconstruction reconstruct(ReconstructionMethod method, std::span<const CameraView> views,
+                           const KnowledgeBase& knowledge, const ReconstructOptions& options,
+                           const StopToken& stop) {
+  switch (method) {
+    case ReconstructionMethod::svd:
+      return reconstruct_svd(views, knowledge, options, stop);
+    case ReconstructionMethod::voting:
+      return reconstruct_voting(views, knowledge, options, stop);
+    case ReconstructionMethod::pnp:
+      break;
+  }
+  return reconstruct_pnp(views, knowledge, options, stop);
+}
+
+SceneReconstruction reconstruct_scene(const BopScene& scene, const Workcell& workcell,
+                                      const ReconstructionSettings& settings,
+                                      const StopToken& stop) {
+  check_knowledge(workcell);
+  SceneReconstruction all{observe(scene, workcell, settings.observe, stop), {}, 0};
+  if (stop.stop_requested()) {
+    all.result.stopped = stop.reason();
+    return all;
+  }
+  check_cameras(scene, all.observed);
+  const auto start = std::chrono::steady_clock::now();
+  all.result =
+      reconstruct(settings.method, all.observed.views, *workcell.knowledge, settings.options, stop);
+  all.reconstruct_s =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return all;
+}
+
+}  // namespace vantage

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "reconstruct/observed_scene.hpp"
+#include "vantage/reconstruction/reconstruct.hpp"
+
+namespace vantage {
+
+enum class ReconstructionMethod { svd, pnp, voting };
+
+/// The methods' names on the command line, in the order of the enumeration.
+inline const std::vector<std::string> kReconstructionMethods = {"svd", "pnp", "voting"};
+
+/// @throws Error bad_input, "--method" as the place, for another name.
+ReconstructionMethod reconstruction_method_of(const std::string& name);
+
+/// How to reconstruct.
+struct ReconstructionSettings {
+  ReconstructionMethod method = ReconstructionMethod::pnp;
+  ObserveOptions observe = {};
+  ReconstructOptions options = {};
+};
+
+/// What stands in the recorded scene.
+struct SceneReconstruction {
+  ObservedScene observed;
+  Reconstruction result;
+  double reconstruct_s = 0;
+};
+
+/// One of the library's methods, by name.
+Reconstruction reconstruct(ReconstructionMethod method, std::span<const CameraView> views,
+                           const KnowledgeBase& knowledge, const ReconstructOptions& options = {},
+                           const StopToken& stop = {});
+
+/// @throws Error bad_input if no camera could be located, with each one's reason.
+void check_cameras(const BopScene& scene, const ObservedScene& observed);
+
+/// Detects, locates and reconstructs. Runs in the caller's task arena.
+/// @throws Error bad_input as `observe` does; if no camera could be located, with each one's
+/// reason; and for a workcell whose knowledge base has no type with features.
+SceneReconstruction reconstruct_scene(const BopScene& scene, const Workcell& workcell,
+                                      const ReconstructionSettings& settings,
+                                      const StopToken& stop = {});
+
+}  // namespace vantage

@@ -1,0 +1,130 @@
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <memory>
+
+#include "cli/command.hpp"
+#include "cli/picture_file.hpp"
+#include "cli/progress_line.hpp"
+#include "cli/signal_handler.hpp"
+#include "cli/workers.hpp"
+#include "simulator/color/color_sensor.hpp"
+#include "simulator/sheet/contact_sheet.hpp"
+#include "workcell/simulated_cell.hpp"
+
+namespace vantage {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct RenderArguments {
+  std::vector<fs::path> workcells;
+  fs::path picture;
+  std::string camera;
+  bool contact_sheet = false;
+  int samples = 64;
+  int threads = 0;
+};
+
+/// A workcell with everything that stands in it, and its name.
+struct Subject {
+  std::string name;
+  Workcell workcell;
+};
+
+Subject load_subject(const fs::path& file) {
+  Subject subject{file.stem().string(), load_workcell(file)};
+  place_random_objects(subject.workcell);
+  if (subject.workcell.cameras.empty()) {
+    throw bad_input(file.string() + ": cameras", "there are none to look through");
+  }
+  return subject;
+}
+
+const CellCamera& chosen_camera(const Subject& subject, const std::string& name) {
+  const std::vector<CellCamera>& cameras = subject.workcell.cameras;
+  if (name.empty()) return cameras.front();
+  const auto found = std::find_if(cameras.begin(), cameras.end(),
+                                  [&](const CellCamera& camera) { return camera.name == name; });
+  if (found != cameras.end()) return *found;
+  std::string names;
+  for (const CellCamera& camera : cameras) names += (names.empty() ? "" : ", ") + camera.name;
+  throw bad_input("--camera", fmt::format("found {}; the workcell's cameras are {}", name, names));
+}
+
+std::optional<ColorImage> photograph(const SimulatedCell& cell, const CellCamera& camera,
+                                     const RenderArguments& arguments, const StopToken& stop) {
+  return simulate_color(cell.scene, {}, camera.camera, {.samples_per_pixel = arguments.samples}, 0,
+                        stop);
+}
+
+std::optional<ColorImage> sheet(const RenderArguments& arguments, const StopToken& stop) {
+  std::vector<Subject> subjects;
+  std::uint64_t total = 0;
+  for (const fs::path& file : arguments.workcells) {
+    subjects.push_back(load_subject(file));
+    total += subjects.back().workcell.cameras.size();
+  }
+  stop.expect(total);
+  std::vector<LabelledPicture> pictures;
+  for (const Subject& subject : subjects) {
+    const SimulatedCell cell = simulated_cell(subject.workcell);
+    for (const CellCamera& camera : subject.workcell.cameras) {
+      auto image = photograph(cell, camera, arguments, stop);
+      if (!image) return std::nullopt;
+      pictures.push_back({subject.name, camera.name, std::move(*image)});
+      stop.advance(1);
+    }
+  }
+  return contact_sheet(pictures);
+}
+
+std::optional<ColorImage> single(const RenderArguments& arguments, const StopToken& stop) {
+  if (arguments.workcells.size() > 1) {
+    throw bad_input("vantage render", fmt::format("found {} workcells; expected one, or "
+                                                  "--contact-sheet for all of them in one picture",
+                                                  arguments.workcells.size()));
+  }
+  const Subject subject = load_subject(arguments.workcells.front());
+  return photograph(simulated_cell(subject.workcell), chosen_camera(subject, arguments.camera),
+                    arguments, stop);
+}
+
+ExitCode render(const RenderArguments& arguments) {
+  const StopToken stop;
+  const Interrupt interrupt({stop});
+  Workers workers(arguments.threads);
+  const std::optional<ColorImage> image = workers.execute([&] {
+    const ProgressLine progress("rendering", stop);
+    return arguments.contact_sheet ? sheet(arguments, stop) : single(arguments, stop);
+  });
+  if (!image) return ExitCode::cancelled;
+  write_picture(arguments.picture, *image);
+  spdlog::info("wrote {}", arguments.picture.string());
+  return ExitCode::ok;
+}
+
+}  // namespace
+
+void add_render_command(CLI::App& app, Action& action) {
+  CLI::App* verb =
+      app.add_subcommand("render", "Photograph workcells: one camera's view, or a contact sheet");
+  const auto arguments = std::make_shared<RenderArguments>();
+  verb->add_option("workcells", arguments->workcells, "Workcell files (YAML) with cameras")
+      ->required();
+  verb->add_option("-o,--output", arguments->picture, "The picture: .png or .jpg")->required();
+  verb->add_option("--camera", arguments->camera, "The camera to look through; the first without");
+  verb->add_flag("--contact-sheet", arguments->contact_sheet,
+                 "All cameras of all workcells on one picture")
+      ->excludes("--camera");
+  verb->add_option("--samples", arguments->samples, "Rays through each pixel")
+      ->check(CLI::Range(1, 4096))
+      ->capture_default_str();
+  verb->add_option("--threads", arguments->threads, "Threads to use (0: all)")
+      ->check(CLI::Range(0, 1024));
+  verb->parse_complete_callback(
+      [&action, arguments] { action = [=] { return render(*arguments); }; });
+}
+
+}  // namespace vantage

@@ -1,0 +1,145 @@
+#include "simulate/simulated_dataset.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "cli/pose_json.hpp"
+#include "cli/units.hpp"
+#include "simulator/scene/sample_hash.hpp"
+#include "vantage/raycore/error.hpp"
+#include "vantage/raycore/file.hpp"
+#include "vantage/raycore/image_io.hpp"
+#include "vantage/raycore/lens.hpp"
+
+namespace vantage {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+Json camera_json(const PinholeCamera& camera, double depth_scale_mm) {
+  const Intrinsics& k = camera.intrinsics();
+  const Pose T_cam_world = camera.T_world_cam().inverse();
+  return {{"cam_K", {k.fx, 0.0, k.cx, 0.0, k.fy, k.cy, 0.0, 0.0, 1.0}},
+          {"depth_scale", depth_scale_mm},
+          {"cam_R_w2c", bop_rotation(T_cam_world)},
+          {"cam_t_w2c", bop_translation(T_cam_world)}};
+}
+
+Json truth_json(const Workcell& workcell, const std::vector<BopModel>& models,
+                const PinholeCamera& camera) {
+  Json list = Json::array();
+  for (const PlacedObject& object : workcell.known_objects) {
+    const Pose T_cam_model = camera.T_world_cam().inverse() * object.T_world_object;
+    list.push_back({{"cam_R_m2c", bop_rotation(T_cam_model)},
+                    {"cam_t_m2c", bop_translation(T_cam_model)},
+                    {"obj_id", model_of(models, object).id}});
+  }
+  return list;
+}
+
+CountImage to_counts(const DepthImage& depth, double depth_scale_mm) {
+  CountImage counts(depth.width(), depth.height());
+  for (std::size_t i = 0; i < counts.samples.size(); ++i) {
+    const double z = double(depth.metres()[i]);
+    if (std::isnan(z)) continue;
+    counts.samples[i] = std::uint16_t(std::lround(kMillimetres * z / depth_scale_mm));
+  }
+  return counts;
+}
+
+/// The calibration file that OpenCV's tools read and write.
+std::string calibration_yaml(const Intrinsics& k, const Distortion& d) {
+  return fmt::format(
+      "%YAML:1.0\n---\nimage_width: {}\nimage_height: {}\n"
+      "camera_matrix: !!opencv-matrix\n   rows: 3\n   cols: 3\n   dt: d\n"
+      "   data: [ {}, 0., {}, 0., {}, {}, 0., 0., 1. ]\n"
+      "distortion_coefficients: !!opencv-matrix\n   rows: 5\n   cols: 1\n   dt: d\n"
+      "   data: [ {}, {}, {}, {}, {} ]\n",
+      k.width, k.height, k.fx, k.cx, k.fy, k.cy, d.k1, d.k2, d.p1, d.p2, d.k3);
+}
+
+void check_depth_range(const CellCamera& camera, double depth_scale_mm) {
+  const double most = 65535 * depth_scale_mm / kMillimetres, far_m = camera.camera.range().far_m;
+  if (far_m <= most) return;
+  throw bad_input(
+      "--depth-scale-mm",
+      fmt::format("{} mm a count reach {} m in 16 bits, but camera {} measures up to {} m; "
+                  "use {} or more, or a nearer sensor.depth_range_m",
+                  depth_scale_mm, most, camera.name, far_m,
+                  std::ceil(far_m * kMillimetres / 65535 * 100) / 100));
+}
+
+void write_calibrations(const Workcell& workcell, const RecordingOptions& options,
+                        const fs::path& folder) {
+  const std::vector<std::string> names = calibration_names(workcell, options);
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    write_file(folder / names[i],
+               calibration_yaml(workcell.cameras[i].camera.intrinsics(), options.color.distortion));
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> calibration_names(const Workcell& workcell,
+                                           const RecordingOptions& options) {
+  if (options.color.distortion.none() || workcell.cameras.empty()) return {};
+  const Intrinsics& first = workcell.cameras.front().camera.intrinsics();
+  const bool all_alike =
+      std::all_of(workcell.cameras.begin(), workcell.cameras.end(),
+                  [&](const CellCamera& c) { return c.camera.intrinsics() == first; });
+  if (all_alike) return {"calibration.yml"};
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < workcell.cameras.size(); ++i) {
+    names.push_back(fmt::format("calibration_{:06}.yml", i));
+  }
+  return names;
+}
+
+void check_recording(const Workcell& workcell, const RecordingOptions& options) {
+  if (workcell.cameras.empty()) {
+    throw bad_input(workcell.files.front().string() + ": cameras",
+                    "there are none; simulating needs at least one, e.g. \"- {name: front, eye_m: "
+                    "[0, -0.7, 0.4], target_m: [0, 0, 0]}\"");
+  }
+  options.depth.check("depth sensor");
+  for (const CellCamera& camera : workcell.cameras) {
+    check_depth_range(camera, options.depth_scale_mm);
+    const Lens lens(camera.camera.intrinsics(), options.color.distortion,
+                    "--distortion");  // or why it is none
+  }
+}
+
+bool record(const Workcell& workcell, const SimulatedCell& cell, const RecordingOptions& options,
+            const fs::path& folder, const StopToken& stop) {
+  check_recording(workcell, options);
+  for (const char* name : {"rgb", "depth", "models"}) fs::create_directories(folder / name);
+  const std::vector<BopModel> models = bop_models(workcell);
+  write_bop_models(folder / "models", models);
+
+  Json cameras = Json::object(), truth = Json::object();
+  stop.expect(workcell.cameras.size());
+  for (std::size_t i = 0; i < workcell.cameras.size(); ++i) {
+    const PinholeCamera& camera = workcell.cameras[i].camera;
+    const std::uint64_t seed = sample_hash(options.seed, i);
+    const auto color =
+        simulate_color(cell.scene, options.lighting, camera, options.color, seed, stop);
+    if (!color || stop.stop_requested()) return false;
+    const DepthImage depth = simulate_depth(cell.scene.rays(), camera, options.depth, seed);
+    const std::string name = fmt::format("{:06}.png", i);
+    write_png(folder / "rgb" / name, *color);
+    write_png(folder / "depth" / name, to_counts(depth, options.depth_scale_mm));
+    cameras[std::to_string(i)] = camera_json(camera, options.depth_scale_mm);
+    truth[std::to_string(i)] = truth_json(workcell, models, camera);
+    stop.advance(1);
+  }
+  write_calibrations(workcell, options, folder);
+  write_file(folder / "scene_gt.json", truth.dump(1) + "\n");
+  write_file(folder / "scene_camera.json", cameras.dump(1) + "\n");
+  return true;
+}
+
+}  // namespace vantage

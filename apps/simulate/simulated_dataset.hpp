@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "simulate/bop_models.hpp"
+#include "simulator/color/color_sensor.hpp"
+#include "simulator/depth/depth_sensor.hpp"
+#include "vantage/raycore/stop_token.hpp"
+#include "workcell/simulated_cell.hpp"
+
+namespace vantage {
+
+/// How a cell is recorded.
+struct RecordingOptions {
+  ColorSensor color = {};
+  StereoSensor depth = {};
+  Lighting lighting = {};
+  double depth_scale_mm = 0.1;  ///< one count of the depth images; 16 bits reach 6.55 m with it
+  std::uint64_t seed = 0;       ///< of all noise; image i uses a hash of it and i
+};
+
+/// @throws Error bad_input for a workcell without cameras, one whose depth range does not fit 16
+/// bits, and as `StereoSensor::check` and `Lens` do.
+void check_recording(const Workcell& workcell, const RecordingOptions& options);
+
+/// The calibration files that a recording gets: none without distortion, `calibration.yml` if all
+/// cameras are alike, else one for each.
+std::vector<std::string> calibration_names(const Workcell& workcell,
+                                           const RecordingOptions& options);
+
+/// Records the cell with all of its cameras as a BOP scene folder: `rgb/` and `depth/` with image i
+/// for the i-th camera, `models/`, `scene_gt.json` with the known objects, `scene_camera.json`; and
+/// `calibration.yml`, OpenCV's, if the colour camera's lens distorts (`calibration_%06d.yml` for
+/// each image, where intrinsics differ). `scene_camera.json` comes last: a folder without it is no
+/// recording yet.
+/// @returns whether it is complete: not if `stop` asked to stop.
+/// @throws Error as `check_recording`, the sensors and `write_file` do.
+bool record(const Workcell& workcell, const SimulatedCell& cell, const RecordingOptions& options,
+            const std::filesystem::path& folder, const StopToken& stop = {});
+
+}  // namespace vantage

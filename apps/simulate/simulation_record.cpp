@@ -1,0 +1,139 @@
+#include "simulate/simulation_record.hpp"
+
+#include <fmt/format.h>
+
+#include "cli/inputs_json.hpp"
+#include "simulate/workcell_export.hpp"
+#include "simulator/scene/ground_truth.hpp"
+#include "vantage/planner/plan.hpp"
+#include "vantage/raycore/error.hpp"
+#include "vantage/raycore/file.hpp"
+#include "version.hpp"
+
+namespace vantage {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+constexpr const char* kRecordName = "simulation.json";
+
+Json color_json(const ColorSensor& color) {
+  const Distortion& d = color.distortion;
+  return {{"samples_per_pixel", color.samples_per_pixel},
+          {"distortion", {d.k1, d.k2, d.p1, d.p2, d.k3}},
+          {"vignetting", color.vignetting},
+          {"read_noise", color.read_noise},
+          {"shot_noise", color.shot_noise}};
+}
+
+Json depth_json(const StereoSensor& depth, double depth_scale_mm) {
+  return {{"focal_px", depth.noise.focal_px},
+          {"baseline_m", depth.noise.baseline_m},
+          {"subpixel_px", depth.noise.subpixel_px},
+          {"disparity_step_px", depth.disparity_step_px},
+          {"max_disparity_px", depth.max_disparity_px},
+          {"second_imager", depth.second_imager},
+          {"projector", depth.projector},
+          {"projector_m", depth.projector_m},
+          {"max_incidence_rad", depth.max_incidence_rad},
+          {"border_px", depth.border_px},
+          {"flying_pixels", depth.flying_pixels},
+          {"depth_scale_mm", depth_scale_mm}};
+}
+
+Json true_volumes_json(const Workcell& workcell, const SimulatedCell& cell) {
+  const double voxel_size_m = workcell.voxel_size_m.value_or(
+      PlanRequest{.work_area = workcell.work_area, .intrinsics = workcell.sensor_intrinsics}
+          .voxel_size_m);
+  std::vector<PinholeCamera> cameras;
+  for (const CellCamera& camera : workcell.cameras) cameras.push_back(camera.camera);
+  const auto geometry = GridGeometry::covering(workcell.work_area, voxel_size_m);
+  const GroundTruth truth(cell.scene, cameras, geometry);
+  const StateGrid& grid = truth.grid();
+  const auto volume = [&](VoxelState state) { return grid.volume_m3(state); };
+  return {{"voxel_size_m", voxel_size_m},
+          {"occupied", volume(VoxelState::occupied)},
+          {"free", volume(VoxelState::free)},
+          {"hidden", volume(VoxelState::shadow)}};
+}
+
+Json images_json(const Workcell& workcell) {
+  Json names = Json::array();
+  for (const CellCamera& camera : workcell.cameras) names.push_back(camera.name);
+  return names;
+}
+
+}  // namespace
+
+void prepare_objects(Workcell& workcell, SimulationSettings& settings) {
+  if (settings.objects || !settings.types.empty()) {
+    RandomObjects random = workcell.random_objects.value_or(RandomObjects{});
+    if (settings.objects) random.count = *settings.objects;
+    if (!settings.types.empty()) {
+      random.types.clear();
+      for (const std::string& name : settings.types) {
+        random.types.push_back(workcell.knowledge->get(name, "--types"));
+      }
+    } else if (random.types.empty()) {
+      random.types = workcell.knowledge->types();
+    }
+    if (random.types.empty() && random.count > 0) {
+      throw bad_input("--objects", "the workcell has no knowledge_base, so there are no types");
+    }
+    workcell.random_objects = random;
+  }
+  if (settings.seed && workcell.random_objects) workcell.random_objects->seed = *settings.seed;
+  settings.recording.seed = settings.seed.value_or(0);
+  place_random_objects(workcell);
+}
+
+void claim_folder(const fs::path& folder) {
+  if (fs::exists(folder) && !fs::is_directory(folder)) {
+    throw bad_input(folder.string(), "there is a file of this name; name a folder for the dataset");
+  }
+  if (fs::is_directory(folder) && !fs::is_empty(folder) &&
+      !fs::is_regular_file(folder / kRecordName)) {
+    throw bad_input(folder.string(),
+                    "the folder is not empty, and what is in it was not simulated; name another "
+                    "one, so that nothing is lost");
+  }
+  fs::create_directories(folder);
+  fs::remove(folder / "scene_camera.json");
+}
+
+Json write_simulation_record(const fs::path& workcell_file, const Workcell& workcell,
+                             const SimulatedCell& cell, const SimulationSettings& settings,
+                             const fs::path& folder) {
+  const RecordingOptions& recording = settings.recording;
+  const Json record{{"vantage", kVersion},
+                    {"workcell", workcell_file.string()},
+                    {"seed", recording.seed},
+                    {"images", images_json(workcell)},
+                    {"color", color_json(recording.color)},
+                    {"depth", depth_json(recording.depth, recording.depth_scale_mm)},
+                    {"known_objects", workcell.known_objects.size()},
+                    {"foreign_objects", workcell.foreign_objects.size()},
+                    {"true_volumes_m3", true_volumes_json(workcell, cell)},
+                    {"inputs", inputs_json(workcell.files)}};
+  write_cell_bundle(workcell_file, workcell, calibration_names(workcell, recording), folder);
+  write_file(folder / kRecordName, record.dump(1) + "\n");
+  return record;
+}
+
+std::string summary_of_simulation(const Json& record) {
+  const Json& volumes = record["true_volumes_m3"];
+  std::string cameras;
+  for (const Json& name : record["images"]) {
+    cameras += (cameras.empty() ? "" : ", ") + name.get<std::string>();
+  }
+  const auto volume = [&](const char* key) { return volumes[key].get<double>(); };
+  return fmt::format(
+      "images     {} ({})\nobjects    {} known, {} foreign\n"
+      "truth      occupied {:.6f}, free {:.6f}, hidden {:.6f} m³, voxels of {} m\n",
+      record["images"].size(), cameras, record["known_objects"].get<int>(),
+      record["foreign_objects"].get<int>(), volume("occupied"), volume("free"), volume("hidden"),
+      volumes["voxel_size_m"].get<double>());
+}
+
+}  // namespace vantage

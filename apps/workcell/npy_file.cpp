@@ -1,0 +1,104 @@
+#include "workcell/npy_file.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <string>
+
+#include "vantage/raycore/error.hpp"
+#include "vantage/raycore/file.hpp"
+#include "workcell/npy_header.hpp"
+
+namespace vantage {
+namespace {
+
+constexpr std::int64_t kMostElements = std::int64_t(1) << 30;
+constexpr std::size_t kLongestHeader = std::size_t(1) << 16;
+constexpr std::string_view kMagic("\x93NUMPY", 6);
+
+/// The header's text is [begin, end); the array begins there.
+struct HeaderPlace {
+  std::size_t begin = 0, end = 0;
+};
+
+HeaderPlace header_place(const std::vector<std::uint8_t>& bytes, const std::string& where) {
+  const bool magic =
+      bytes.size() >= 10 && std::equal(kMagic.begin(), kMagic.end(), bytes.begin(),
+                                       [](char a, std::uint8_t b) { return std::uint8_t(a) == b; });
+  if (!magic) {
+    throw bad_input(where,
+                    "this is no NumPy array: it does not begin with \\x93NUMPY; expected "
+                    "what numpy.save writes");
+  }
+  const int version = bytes[6];
+  if (version < 1 || version > 3) {
+    throw bad_input(
+        where, fmt::format("NumPy's format {}.{}; expected 1.0, 2.0 or 3.0", version, bytes[7]));
+  }
+  // Little-endian: two bytes in format 1, four since.
+  const std::size_t width = version == 1 ? 2 : 4, begin = 8 + width;
+  std::size_t length = 0;
+  for (std::size_t i = 0; i < width && 8 + i < bytes.size(); ++i) {
+    length |= std::size_t(bytes[8 + i]) << (8 * i);
+  }
+  if (length > kLongestHeader || begin + length > bytes.size()) {
+    throw bad_input(where, fmt::format("its header is said to have {} bytes, of {} in the file; "
+                                       "expected a whole header of up to {}; is it truncated?",
+                                       length, bytes.size(), kLongestHeader));
+  }
+  return {begin, begin + length};
+}
+
+void check_header(const NpyHeader& header, const std::string& where) {
+  if (header.type != "|b1" && header.type != "|u1") {
+    throw bad_input(where, fmt::format("its elements are \"{}\"; expected \"|b1\" (bool) or "
+                                       "\"|u1\" (uint8): convert it by array.astype(bool)",
+                                       header.type));
+  }
+  if (header.fortran_order) {
+    throw bad_input(where,
+                    "it is in Fortran's order; expected C's: convert it by "
+                    "numpy.ascontiguousarray(array)");
+  }
+  const bool fits = header.shape.size() == 3 &&
+                    std::ranges::all_of(header.shape, [](std::int64_t n) { return n >= 1; });
+  if (!fits) {
+    throw bad_input(where, fmt::format("its shape is ({}); expected three sizes of 1 or more",
+                                       fmt::join(header.shape, ", ")));
+  }
+  double elements = 1;
+  for (const std::int64_t n : header.shape) elements *= double(n);
+  if (elements <= double(kMostElements)) return;
+  throw Error(ErrorCode::out_of_resources, where,
+              fmt::format("its shape ({}) has {:.3g} elements; at most {} are handled: use larger "
+                          "cells",
+                          fmt::join(header.shape, ", "), elements, kMostElements));
+}
+
+}  // namespace
+
+ByteArray3 read_npy_bytes(const std::filesystem::path& file) {
+  const std::string where = file.string();
+  std::vector<std::uint8_t> bytes = read_file(file, std::size_t(kMostElements) + kLongestHeader);
+  const auto [begin, end] = header_place(bytes, where);
+  const NpyHeader header =
+      parse_npy_header({reinterpret_cast<const char*>(bytes.data()) + begin, end - begin}, where);
+  check_header(header, where);
+  const std::int64_t elements = header.shape[0] * header.shape[1] * header.shape[2];
+  if (bytes.size() - end != std::size_t(elements)) {
+    throw bad_input(where,
+                    fmt::format("{} bytes follow its header; expected {}, for the shape "
+                                "({}); is it truncated?",
+                                bytes.size() - end, elements, fmt::join(header.shape, ", ")));
+  }
+  bytes.erase(bytes.begin(), bytes.begin() + std::ptrdiff_t(end));
+  const auto odd = std::find_if(bytes.begin(), bytes.end(), [](std::uint8_t b) { return b > 1; });
+  if (header.type == "|b1" && odd != bytes.end()) {
+    throw bad_input(where, fmt::format("element {} is {}; expected 0 or 1 in an array of bool",
+                                       odd - bytes.begin(), int(*odd)));
+  }
+  return {{int(header.shape[0]), int(header.shape[1]), int(header.shape[2])}, std::move(bytes)};
+}
+
+}  // namespace vantage

@@ -1,0 +1,117 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+#include "plan/polish_ranked.hpp"
+#include "vantage/planner/plan.hpp"
+#include "vantage/raycore/error.hpp"
+#include "vantage/volume/shadow_regions.hpp"
+
+namespace vantage {
+namespace {
+
+const ScoredCandidate& candidate_of(const Plan& plan, int id) {
+  const auto found =
+      std::find_if(plan.candidates.begin(), plan.candidates.end(),
+                   [&](const ScoredCandidate& candidate) { return candidate.view.id == id; });
+  if (found != plan.candidates.end()) return *found;
+  throw bad_input("explain", fmt::format("found candidate {}; expected 0 to {}", id,
+                                         plan.candidates.size() - 1));
+}
+
+/// How much of each region of the shadow is among the voxels that are seen.
+std::vector<RegionGain> region_gains(const StateGrid& grid, const std::vector<std::uint8_t>& seen) {
+  const ShadowRegions regions(grid);
+  const Points centres = grid.centres(VoxelState::shadow);
+  std::map<std::size_t, std::uint64_t> revealed;
+  for (std::size_t i = 0; i < centres.size(); ++i) {
+    if (seen[i] == 0) continue;
+    const auto voxel = grid.geometry().voxel_at(centres[i].cast<double>());
+    ++revealed[std::size_t(regions.label(voxel.value()) - 1)];
+  }
+  std::vector<RegionGain> gains;
+  for (const auto& [region, voxels] : revealed) {
+    gains.push_back({region, regions.list()[region].voxels, voxels});
+  }
+  std::stable_sort(gains.begin(), gains.end(), [](const RegionGain& a, const RegionGain& b) {
+    return a.revealed > b.revealed;
+  });
+  return gains;
+}
+
+std::string score_text(const Plan& plan, Score score) {
+  return fmt::format("{:.6g} {}", plan.in_units(score), plan.score_unit_name);
+}
+
+constexpr const char* kPolished = " (polished)";
+
+std::string polish_text(const ScoredStep& step) {
+  return step.step.move == ServoMove::polish ? kPolished : "";
+}
+
+std::string verdict_of(const Plan& plan, const ViewExplanation& view,
+                       const detail::Utility& utility) {
+  if (view.rejected != Rejection::none) {
+    return fmt::format("rejected: {}", to_text(view.rejected));
+  }
+  const ScoredStep& best_step = view.trace[view.best_step];
+  const Score own = best_step.score.score;
+  const RankedView* best = plan.best();
+  if (best == nullptr) return "no view reveals any shadow, nor does this one";
+  const int best_id = plan.candidates[best->candidate].view.id;
+  if (best_id == view.candidate.id) {
+    return fmt::format("the best of {} candidates: {}{}", plan.candidates.size(),
+                       score_text(plan, own), polish_text(best_step));
+  }
+  std::string text = fmt::format("lost: {}{}, and candidate {} has {}{}", score_text(plan, own),
+                                 polish_text(best_step), best_id, score_text(plan, best->score),
+                                 best->polish.empty() ? "" : kPolished);
+  const Score left = utility.of(own, utility.share(best_step.step.T_world_cam.translation()));
+  if (plan.request.search.travel) {
+    text += fmt::format("; after the journey {} against {}", score_text(plan, left),
+                        score_text(plan, best->utility));
+  }
+  if (left == best->utility) text += "; of equals, the lower id wins";
+  if (plan.stopped != StopReason::none && left > best->utility) {
+    text += "; it was not reached before the plan was stopped";
+  }
+  return text;
+}
+
+}  // namespace
+
+ViewExplanation explain_view(const WorldModel& world, const Plan& plan, int id) {
+  if (plan.classified == nullptr) {
+    throw bad_input("explain", "the plan was stopped before the work area was classified");
+  }
+  const ScoredCandidate& candidate = candidate_of(plan, id);
+  const detail::PlanningTools tools(world, plan.classified, plan.request, plan.candidates.size());
+  const detail::Utility utility(plan.request.search.travel);
+  ViewExplanation view{.candidate = candidate.view};
+  view.rejected = tools.search_tools().checker->check(candidate.view.T_world_cam);
+  if (view.rejected == Rejection::none) {
+    view.trace = detail::trace(tools, plan, candidate);
+    const auto worth = [&](const ScoredStep& step) {
+      return utility.of(step.score.score, utility.share(step.step.T_world_cam.translation()));
+    };
+    const auto best = std::max_element(
+        view.trace.begin(), view.trace.end(),
+        [&](const ScoredStep& a, const ScoredStep& b) { return worth(a) < worth(b); });
+    view.best_step = std::size_t(best - view.trace.begin());
+    const PinholeCamera camera = tools.camera().moved_to(best->step.T_world_cam);
+    view.terms = tools.scorer()->terms(camera);
+    const std::vector<std::uint8_t> seen = tools.voxels().revealed(camera);
+    view.revealed_voxels = std::uint64_t(std::count(seen.begin(), seen.end(), std::uint8_t(1)));
+    view.regions = region_gains(*plan.classified, seen);
+  }
+  view.verdict = verdict_of(plan, view, utility);
+  return view;
+}
+
+std::uint64_t revealed_voxels(const WorldModel& world, const Plan& plan, const Pose& T_world_cam) {
+  const detail::PlanningTools tools(world, plan.classified, plan.request, plan.candidates.size());
+  return tools.voxels().score(tools.camera().moved_to(T_world_cam)).score;
+}
+
+}  // namespace vantage

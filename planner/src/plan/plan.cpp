@@ -1,0 +1,116 @@
+#include "vantage/planner/plan.hpp"
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+#include <chrono>
+#include <cmath>
+
+#include "plan/planner_context.hpp"
+#include "plan/polish_ranked.hpp"
+#include "plan/view_sequence.hpp"
+#include "vantage/raycore/error.hpp"
+#include "vantage/volume/classify.hpp"
+
+namespace vantage {
+namespace {
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+/// What is wrong with a request is said before any work is done.
+void check(const PlanRequest& request) {
+  (void)PinholeCamera(request.intrinsics, Pose(), request.range, "movable camera");
+  request.constraints.check();
+  request.servo.check();
+  request.polish.check();
+  request.search.check();
+  request.views.check();
+  request.method.check();
+}
+
+void search(const WorldModel& world, const std::vector<ViewCandidate>& views, Plan& plan,
+            const StopToken& stop) {
+  // Of fine grids, the shadow's surface and its points take a while each.
+  const auto stopped = [&] { return (plan.stopped = stop.reason()) != StopReason::none; };
+  if (stopped()) return;
+  const PlanningScene scene(world, plan.classified, plan.request.volume.occluders);
+  if (stopped()) return;
+  const detail::PlanningTools tools(world, scene, plan.request, views.size());
+  plan.score_unit = tools.scorer()->unit();
+  plan.score_unit_name = tools.scorer()->unit_name();
+  SearchResult found = tools.search(views, stop);
+  plan.candidates = std::move(found.candidates);
+  plan.ranked = std::move(found.ranked);
+  plan.finished = found.finished;
+  plan.stopped = found.stopped;
+  if (plan.ranked.empty()) return;
+  if (plan.stopped == StopReason::none && !detail::polish(tools, plan.ranked, stop)) {
+    plan.stopped = stop.reason();
+  }
+  tbb::parallel_for(std::size_t(0), plan.ranked.size(), [&](std::size_t i) {
+    RankedView& view = plan.ranked[i];
+    const PinholeCamera camera = tools.camera().moved_to(view.T_world_cam);
+    view.revealed_voxels =
+        tools.by_voxels() ? view.score : tools.voxels().ViewScorer::score(camera).score;
+  });
+  plan.trace = detail::trace(tools, plan, plan.candidates[plan.ranked.front().candidate], stop);
+  detail::add_view(tools.voxels(), tools.camera(), plan.ranked.front(), plan);
+  if (plan.request.views.most > 1) detail::add_next_views(world, tools, plan, stop);
+}
+
+Plan plan_of(const PlanRequest& request, const std::vector<ViewCandidate>& views) {
+  Plan plan{.request = request};
+  for (const ViewCandidate& view : views) plan.candidates.push_back({view});
+  return plan;
+}
+
+void search_classified(const WorldModel& world, const std::vector<ViewCandidate>& views, Plan& plan,
+                       const StopToken& stop) {
+  const auto start = std::chrono::steady_clock::now();
+  plan.grid = plan.classified;
+  search(world, views, plan, stop);
+  plan.score_s = seconds_since(start);
+}
+
+}  // namespace
+
+void ViewCount::check() const {
+  const bool gains = std::isfinite(least_gain_m3) && least_gain_m3 >= 0 && least_gain_share >= 0 &&
+                     least_gain_share <= 1;
+  if (most >= 1 && most <= 1000 && gains) return;
+  throw bad_input("views",
+                  fmt::format("{} views with a gain of at least {} m³ and {} of the shadow; "
+                              "expected 1 to 1000 views, a volume that is not negative, and a "
+                              "share from 0 to 1",
+                              most, least_gain_m3, least_gain_share));
+}
+
+Plan plan_next_view(const WorldModel& world, const PlanRequest& request, const StopToken& stop) {
+  check(request);
+  const GridGeometry geometry = GridGeometry::covering(request.work_area, request.voxel_size_m);
+  const std::vector<ViewCandidate> views = view_candidates(request.candidates, request.work_area);
+  Plan plan = plan_of(request, views);
+  const auto start = std::chrono::steady_clock::now();
+  plan.classified = classify(world, geometry, request.volume, stop);
+  plan.classify_s = seconds_since(start);
+  if (plan.classified == nullptr) {
+    plan.stopped = stop.reason();
+  } else {
+    search_classified(world, views, plan, stop);
+  }
+  return plan;
+}
+
+Plan plan_next_view(const WorldModel& world, std::shared_ptr<const StateGrid> classified,
+                    const PlanRequest& request, const StopToken& stop) {
+  check(request);
+  const std::vector<ViewCandidate> views = view_candidates(request.candidates, request.work_area);
+  Plan plan = plan_of(request, views);
+  plan.classified = std::move(classified);
+  search_classified(world, views, plan, stop);
+  return plan;
+}
+
+}  // namespace vantage

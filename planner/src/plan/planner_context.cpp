@@ -1,0 +1,81 @@
+#include "plan/planner_context.hpp"
+
+#include <algorithm>
+
+#include "plan/mesh_tools.hpp"
+#include "search/two_stage_search.hpp"
+#include "vantage/planner/shadow_scorer.hpp"
+
+namespace vantage::detail {
+namespace {
+
+/// What the servo looks at, and which point it measures distances to.
+struct ServoSight {
+  std::shared_ptr<const ShadowView> view;
+  Eigen::Vector3d centre;
+};
+
+/// The servo's view may be the scorer itself.
+std::shared_ptr<const ShadowView> servo_view(const std::shared_ptr<const ViewScorer>& scorer,
+                                             const PlanningScene& scene, const DepthRange& range) {
+  if (auto view = std::dynamic_pointer_cast<const ShadowView>(scorer)) return view;
+  return std::make_shared<const ShadowScorer>(scene, range, 0);
+}
+
+}  // namespace
+
+PlanningTools::PlanningTools(const WorldModel& world, const PlanningScene& scene,
+                             const PlanRequest& request, std::size_t candidates)
+    : options_(request.search),
+      shortlist_(std::max(request.method.mesh.shortlist, request.search.ranked)),
+      tools_{nullptr, nullptr, nullptr,
+             PinholeCamera(request.intrinsics, Pose(), request.range, "movable camera"),
+             Utility(request.search.travel)},
+      polished_views_(std::size_t(request.polish.views)) {
+  ServoSight sight;
+  if (request.method.name == "mesh") {
+    const std::size_t views = candidates * std::size_t(request.servo.iterations + 1);
+    const MeshTools mesh = mesh_tools(world, scene.grid().geometry().box(), request, views);
+    tools_.scorer = mesh.scorer;
+    cheap_ = mesh.cheap;
+    sight = {mesh.scorer, mesh.middle_of_unseen};
+    if (mesh.cheap != nullptr) sight.view = mesh.cheap_sight;
+  } else {
+    tools_.scorer = make_view_scorer(request.method, scene, world, request.range);
+    sight.centre = scene.middle_of_shadow();
+    if (request.servo.iterations > 0) sight.view = servo_view(tools_.scorer, scene, request.range);
+  }
+  tools_.checker = std::make_shared<const ViewChecker>(request.constraints, scene, request.range);
+  voxels_ = std::dynamic_pointer_cast<const VoxelScorer>(tools_.scorer);
+  if (voxels_ == nullptr) voxels_ = std::make_shared<const VoxelScorer>(scene);
+  if (request.servo.iterations > 0) {
+    tools_.servo = std::make_shared<const ServoRefiner>(sight.view, tools_.checker, tools_.camera,
+                                                        sight.centre, request.servo);
+  }
+  if (request.polish.views > 0) {
+    polisher_ =
+        std::make_shared<const ViewPolisher>(tools_.scorer, tools_.checker, tools_.camera,
+                                             sight.centre, request.polish, request.search.travel);
+  }
+}
+
+SearchResult PlanningTools::search(std::span<const ViewCandidate> candidates,
+                                   const StopToken& stop) const {
+  const ViewSearch exact = search_by(tools_.scorer, options_.ranked);
+  if (cheap_ == nullptr) return exact.run(candidates, stop);
+  return ShortlistSearch(search_by(cheap_, shortlist_), exact, options_.ranked, shortlist_)
+      .run(candidates, stop);
+}
+
+std::vector<ScoredStep> PlanningTools::trace(const ViewCandidate& candidate,
+                                             const StopToken& stop) const {
+  return search_by(tools_.scorer, options_.ranked).trace(candidate, stop);
+}
+
+ViewSearch PlanningTools::search_by(std::shared_ptr<const ViewScorer> scorer, int ranked) const {
+  SearchOptions options = options_;
+  options.ranked = ranked;
+  return {std::move(scorer), tools_.checker, tools_.servo, tools_.camera, options};
+}
+
+}  // namespace vantage::detail

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <memory>
+#include <span>
+
+#include "search/candidate_group.hpp"
+#include "vantage/planner/plan.hpp"
+#include "vantage/planner/voxel_scorer.hpp"
+
+namespace vantage::detail {
+
+/// All that a plan needs besides the candidates, made from a classified grid.
+class PlanningTools {
+ public:
+  /// @param candidates how many there are to be.
+  /// @throws Error as `plan_next_view` does, but for the candidates.
+  PlanningTools(const WorldModel& world, std::shared_ptr<const StateGrid> grid,
+                const PlanRequest& request, std::size_t candidates)
+      : PlanningTools(world, PlanningScene(world, std::move(grid), request.volume.occluders),
+                      request, candidates) {}
+
+  /// @param scene made from `world`.
+  PlanningTools(const WorldModel& world, const PlanningScene& scene, const PlanRequest& request,
+                std::size_t candidates);
+
+  const std::shared_ptr<const ViewScorer>& scorer() const { return tools_.scorer; }
+  const VoxelScorer& voxels() const { return *voxels_; }
+  bool by_voxels() const { return tools_.scorer == voxels_; }  ///< the method is `voxel`
+  const PinholeCamera& camera() const { return tools_.camera; }
+  const SearchTools& search_tools() const { return tools_; }
+
+  /// The best of all candidates; of a shortlist, where the method has one.
+  SearchResult search(std::span<const ViewCandidate> candidates, const StopToken& stop) const;
+
+  /// As `ViewSearch::trace` does.
+  std::vector<ScoredStep> trace(const ViewCandidate& candidate, const StopToken& stop = {}) const;
+  const ViewPolisher* polisher() const { return polisher_.get(); }  ///< null: nothing is polished
+  std::size_t polished_views() const { return polished_views_; }
+
+ private:
+  ViewSearch search_by(std::shared_ptr<const ViewScorer> scorer, int ranked) const;
+
+  SearchOptions options_;
+  int shortlist_ = 0;
+  std::shared_ptr<const VoxelScorer> voxels_;
+  std::shared_ptr<const ViewScorer> cheap_;  ///< null: no shortlist
+  SearchTools tools_;
+  std::size_t polished_views_;
+  std::shared_ptr<const ViewPolisher> polisher_;
+};
+
+}  // namespace vantage::detail

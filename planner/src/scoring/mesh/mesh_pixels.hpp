@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "vantage/planner/view_scorer.hpp"
+#include "vantage/raycore/camera.hpp"
+#include "vantage/raycore/scene.hpp"
+#include "vantage/raycore/unobserved_space.hpp"
+
+namespace vantage::detail {
+
+/// Some tiles of an image, and what their pixels meet first: unseen space, and known objects.
+struct MeshTiles {
+  std::span<const PixelTile> tiles;
+  std::span<const UnseenHits> unseen;
+  std::span<const TileHits> known;
+};
+
+/// Which pixels count for the mesh method, and how much. Pixels show unseen space if they lie on
+/// the image, and meet it in range and before any known object.
+class MeshPixels {
+ public:
+  MeshPixels(const Intrinsics& image, const DepthRange& range, double power);
+
+  /// (1 - v) (D / far)^power of the pixels that show unseen space, each in steps of 2^-35.
+  Score sum(const MeshTiles& tiles) const;
+
+  /// No pixel counts more, if nothing unseen is farther than `farthest_m`.
+  Score most(double farthest_m) const;
+
+  /// One bit for each pixel of tile `i`: whether it shows unseen space with v up to `most_facing`.
+  std::uint16_t shown(const MeshTiles& tiles, std::size_t i, float most_facing) const;
+
+ private:
+  int width_, height_;
+  float near_m_, far_m_;
+  double power_;
+  int whole_power_;  ///< -1 for powers that are not
+};
+
+}  // namespace vantage::detail

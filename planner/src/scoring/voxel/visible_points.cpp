@@ -1,0 +1,99 @@
+#include "vantage/planner/visible_points.hpp"
+
+#include <fmt/format.h>
+
+#include <bit>
+
+#include "scoring/voxel/point_hierarchy.hpp"
+#include "scoring/voxel/view_frustum.hpp"
+#include "scoring/voxel/visibility_counter.hpp"
+#include "vantage/raycore/error.hpp"
+
+namespace vantage {
+namespace {
+
+const Points& checked(const Points& points) {
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Eigen::Vector3f p = points[i];
+    if (p.allFinite()) continue;
+    throw bad_input(fmt::format("point {}", i), fmt::format("it is at [{}, {}, {}]; expected "
+                                                            "finite coordinates",
+                                                            p.x(), p.y(), p.z()));
+  }
+  return points;
+}
+
+void check_views(std::span<const PinholeCamera> views, std::size_t needed, std::size_t results) {
+  if (views.size() != needed || views.size() != results) {
+    throw bad_input("views", fmt::format("{} views, {} needed scores, {} results; expected as many "
+                                         "of each",
+                                         views.size(), needed, results));
+  }
+  for (std::size_t i = 1; i < views.size(); ++i) {
+    if (views[i].centre() == views[0].centre()) continue;
+    throw bad_input("views", fmt::format("view {} has another centre than view 0; expected views "
+                                         "that share one",
+                                         i));
+  }
+}
+
+}  // namespace
+
+struct VisiblePoints::Impl {
+  std::shared_ptr<const Scene> occluders;
+  detail::PointPackets set;
+};
+
+VisiblePoints::VisiblePoints(Points points, std::shared_ptr<const Scene> occluders)
+    : impl_(std::make_unique<const Impl>(
+          Impl{std::move(occluders), detail::PointPackets(checked(points))})) {}
+VisiblePoints::~VisiblePoints() = default;
+VisiblePoints::VisiblePoints(VisiblePoints&&) noexcept = default;
+VisiblePoints& VisiblePoints::operator=(VisiblePoints&&) noexcept = default;
+
+std::size_t VisiblePoints::size() const noexcept {
+  return impl_->set.size;
+}
+
+Score VisiblePoints::upper_bound(const PinholeCamera& view) const {
+  const detail::PointPackets& set = impl_->set;
+  const detail::ViewFrustum frustum(view, set.largest_coordinate);
+  Score bound = 0;
+  detail::for_each_box(set, frustum, [&](std::size_t level, std::size_t box, detail::InView in) {
+    if (in != detail::InView::none) bound += set.points_below(level, box);
+    return true;
+  });
+  return bound;
+}
+
+void VisiblePoints::count(std::span<const PinholeCamera> views, std::span<const Score> needed,
+                          std::span<ScoreBound> results, const StopToken& stop) const {
+  check_views(views, needed.size(), results.size());
+  if (views.empty()) return;
+  detail::ViewCounter(impl_->set, *impl_->occluders, views, needed).run(stop, results);
+}
+
+std::vector<std::uint8_t> VisiblePoints::visible(const PinholeCamera& view) const {
+  const detail::PointPackets& set = impl_->set;
+  std::vector<std::uint8_t> result(set.size);
+  const std::vector<std::uint16_t> in_view = in_view_masks(set, view);
+  std::vector<std::uint16_t> hidden(set.packets());
+  impl_->occluders->occluded(set.points, view.centre().cast<float>(), set.spread, in_view, hidden);
+  for (std::size_t i = 0; i < set.packets(); ++i) {
+    for (std::size_t lane = 0; lane < kPacketWidth; ++lane) {
+      if (((in_view[i] & ~hidden[i]) >> lane & 1) == 0) continue;
+      result[set.original[set.spread[i] * kPacketWidth + lane]] = 1;
+    }
+  }
+  return result;
+}
+
+std::uint64_t VisiblePoints::count_in_view(const PinholeCamera& view) const {
+  std::uint64_t count = 0;
+  for (const std::uint16_t mask : in_view_masks(impl_->set, view)) {
+    count += std::uint64_t(std::popcount(mask));
+  }
+  return count;
+}
+
+}  // namespace vantage

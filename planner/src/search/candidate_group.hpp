@@ -1,0 +1,94 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "scene/utility.hpp"
+#include "search/top_k.hpp"
+#include "vantage/planner/view_search.hpp"
+
+namespace vantage::detail {
+
+/// What searching looks at and asks.
+struct SearchTools {
+  std::shared_ptr<const ViewScorer> scorer;
+  std::shared_ptr<const ViewChecker> checker;
+  std::shared_ptr<const ServoRefiner> servo;  ///< null: none
+  PinholeCamera camera;
+  Utility utility;
+
+  /// @param outermost as of `ServoRefiner::path`.
+  std::vector<ServoStep> path(const Pose& T_world_cam,
+                              std::optional<OutermostShadow>& outermost) const {
+    if (servo == nullptr) return {{T_world_cam, ServoMove::start}};
+    return servo->path(T_world_cam, outermost);
+  }
+};
+
+/// Candidates that follow each other and share a position: [first, last) of the list.
+struct SiteRange {
+  std::size_t first = 0, last = 0;
+};
+std::vector<SiteRange> sites_of(std::span<const ViewCandidate> candidates);
+
+/// All sites, evenly strewn over the list: one step is about the golden ratio of it.
+std::vector<SiteRange> strewn(const std::vector<SiteRange>& sites);
+
+/// How many candidates were rejected, scored, surpassed or passed over.
+std::size_t finished(std::span<const ScoredCandidate> candidates);
+
+/// The work on one site: first `prepare`, which finds where the camera could go and bounds what
+/// that would be worth, then, if the bound is good enough, `score`. One thread at a time.
+class Site {
+ public:
+  Site(const SearchTools& tools, std::span<const ViewCandidate> candidates, SiteRange range)
+      : tools_(&tools), candidates_(candidates), range_(range) {}
+
+  /// @param ranking as of `score`: what certainly is not among the best is bounded less closely.
+  void prepare(const Ranking& ranking, const StopToken& stop);
+
+  /// The best utility that any of its candidates may have.
+  Score bound() const { return bound_; }
+  std::size_t first() const { return range_.first; }
+  std::size_t size() const { return range_.last - range_.first; }
+  bool matters(const Ranking& ranking) const;
+
+  /// Scores what may be among the best.
+  /// @param ranking as it was before; must not change meanwhile.
+  void score(const Ranking& ranking, const StopToken& stop);
+
+  /// What came of each candidate, and those with a place among the best.
+  void report(std::span<ScoredCandidate> results, Ranking& ranking) const;
+
+ private:
+  /// One view that a candidate may end at.
+  struct Step {
+    std::size_t candidate = 0;  ///< in the site
+    int iteration = 0;
+    PinholeCamera view;
+    std::uint64_t share = 0;  ///< that the journey leaves of its score
+    ScoreBound score;         ///< first the upper bound
+
+    Score utility() const { return Utility::of(score.score, share); }
+  };
+  struct Outcome {
+    bool ready = false;
+    Rejection rejected = Rejection::none;
+    const Step* best = nullptr;  ///< of the exact ones
+  };
+
+  void score_group(std::span<Step* const> group, const Ranking& ranking, const StopToken& stop);
+  Score needed(const Step& step, const Ranking& ranking) const;
+  const Step* best_exact(std::size_t candidate) const;
+  ScoredCandidate outcome(std::size_t candidate) const;
+
+  const SearchTools* tools_;
+  std::span<const ViewCandidate> candidates_;
+  SiteRange range_;
+  std::vector<Outcome> outcomes_;
+  std::vector<Step> steps_;
+  Score bound_ = 0;
+};
+
+}  // namespace vantage::detail

@@ -1,0 +1,19 @@
+#pragma once
+
+#include "scene/embree_device.hpp"
+#include "vantage/raycore/triangle_mesh.hpp"
+
+namespace vantage::detail {
+
+/// A closed surface in the world as an Embree scene: its triangles look outwards, so that a ray
+/// that meets the back of one first is inside, and all others are outside.
+class ShellScene {
+ public:
+  ShellScene(const EmbreeDevice& device, const TriangleMesh& shell);
+  RTCScene get() const { return scene_.get(); }
+
+ private:
+  OwnedScene scene_;
+};
+
+}  // namespace vantage::detail

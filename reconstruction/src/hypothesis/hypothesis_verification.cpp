@@ -1,0 +1,164 @@
+#include "hypothesis/hypothesis_verification.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <set>
+
+#include "vantage/raycore/scene_builder.hpp"
+
+namespace vantage::detail {
+namespace {
+
+constexpr double kMissed = 0.2, kHidden = 0.15;
+constexpr double kLeastSidePx = 30;   // smaller markers may well not be found
+constexpr double kLeastFacing = 0.5;  // sine of the angle between the marker and the sight
+constexpr double kBorderPx = 10;      // white around it has to be in the image too
+constexpr double kAboveM = 0.002;     // rays start in front of the marker, not in it
+
+bool is_weak(const Explanation& object) {
+  return object.readings.front()->sighting->id.view == object.readings.back()->sighting->id.view;
+}
+
+/// The reconstructed objects as they hide markers.
+std::shared_ptr<const Scene> scene_of(const std::vector<Candidate>& candidates) {
+  SceneBuilder builder;
+  for (const Candidate& candidate : candidates) {
+    if (!candidate.rejected.empty()) continue;
+    builder.add_instance(candidate.best().type()->mesh, candidate.best().T_world_object);
+  }
+  return builder.build();
+}
+
+/// A view with what its image promises.
+class Watcher {
+ public:
+  Watcher(const CameraView& view, const Scene& scene)
+      : view_(view), lens_(view.lens), scene_(scene), T_cam_world_(view.T_world_cam->inverse()) {}
+
+  /// Whether this view should see the marker of an object at this pose.
+  bool expects(const Marker& marker, const Pose& T_world_object) const {
+    const Pose T_world_marker = T_world_object * marker.T_object_marker;
+    const Eigen::Vector3d& eye = view_.T_world_cam->translation();
+    const Eigen::Vector3d normal = T_world_marker.rotation().col(2);
+    const Eigen::Vector3d sight = (eye - T_world_marker.translation()).normalized();
+    if (!(normal.dot(sight) > kLeastFacing)) return false;
+    const auto corners = marker.corners();
+    std::array<Eigen::Vector2d, 4> pixels;
+    for (std::size_t i = 0; i < 4; ++i) {
+      const Eigen::Vector3d p = T_cam_world_ * (T_world_object * corners[i]);
+      if (!is_before(p)) return false;
+      pixels[i] = lens_.project(p);
+      if (!inside(pixels[i])) return false;
+    }
+    for (std::size_t i = 0; i < 4; ++i) {
+      if ((pixels[(i + 1) % 4] - pixels[i]).norm() < kLeastSidePx) return false;
+    }
+    return std::none_of(corners.begin(), corners.end(), [&](const Eigen::Vector3d& corner) {
+      const Eigen::Vector3d start = T_world_object * corner + kAboveM * normal;
+      return scene_.occluded(start.cast<float>(), eye.cast<float>());
+    });
+  }
+
+ private:
+  bool inside(const Eigen::Vector2d& pixel) const {
+    const Intrinsics& k = view_.lens.intrinsics();
+    return pixel.x() > kBorderPx && pixel.y() > kBorderPx && pixel.x() < k.width - 1 - kBorderPx &&
+           pixel.y() < k.height - 1 - kBorderPx;
+  }
+
+  const CameraView& view_;
+  const WideLens lens_;
+  const Scene& scene_;
+  Pose T_cam_world_;
+};
+
+/// The logarithm of the probability that markers go unseen where they do.
+double log_of_unseen(const Explanation& object, std::span<const CameraView> views,
+                     const Scene& scene) {
+  double log_probability = 0;
+  for (std::size_t v = 0; v < views.size(); ++v) {
+    if (!views[v].T_world_cam || views[v].observations.empty()) continue;
+    const Watcher watcher(views[v], scene);
+    std::set<std::size_t> seen;
+    for (const Reading* reading : object.readings) {
+      if (reading->sighting->id.view == v) seen.insert(reading->feature->index);
+    }
+    int unseen = 0;
+    const auto& features = object.type()->features;
+    for (std::size_t f = 0; f < features.size(); ++f) {
+      const auto* marker = std::get_if<Marker>(&features[f].geometry);
+      if (!marker || seen.contains(f)) continue;
+      if (watcher.expects(*marker, object.T_world_object)) ++unseen;
+    }
+    const double missed = std::pow(kMissed, unseen);
+    log_probability += std::log(seen.empty() ? kHidden + (1 - kHidden) * missed : missed);
+  }
+  return log_probability;
+}
+
+/// The ways' logarithmic likelihoods become shares; ways far below the best one are dropped.
+void share_out(Candidate& candidate, std::vector<double> logs, double least_evidence) {
+  std::vector<std::size_t> order(logs.size());
+  std::iota(order.begin(), order.end(), std::size_t(0));
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return logs[a] > logs[b]; });
+  std::vector<FinalFit> ways;
+  double sum = 0;
+  candidate.shares.clear();
+  for (const std::size_t i : order) {
+    const double below = logs[order.front()] - logs[i];
+    if (below > least_evidence / 2) continue;
+    ways.push_back(std::move(candidate.ways[i]));
+    candidate.shares.push_back(std::exp(-below));
+    sum += candidate.shares.back();
+  }
+  for (double& share : candidate.shares) share /= sum;
+  candidate.ways = std::move(ways);
+}
+
+void weigh(Candidate& candidate, std::span<const CameraView> views, const Scene* scene,
+           double least_evidence) {
+  const auto by_fit = [](const FinalFit& a, const FinalFit& b) {
+    return a.chi_square < b.chi_square;
+  };
+  const auto fitting = std::min_element(candidate.ways.begin(), candidate.ways.end(), by_fit);
+  const double scale =
+      std::max(1.0, fitting->chi_square / std::max(1, fitting->degrees_of_freedom));
+  const double least = fitting->chi_square;
+  double largest_unseen = 0;
+  std::vector<double> logs;
+  for (std::size_t i = 0; i < candidate.ways.size(); ++i) {
+    const FinalFit& way = candidate.ways[i];
+    const double unseen = scene ? log_of_unseen(way.explanation, views, *scene) : 0;
+    if (i == 0 || unseen > largest_unseen) largest_unseen = unseen;
+    logs.push_back(-(way.chi_square - least) / scale / 2 + unseen);
+  }
+  const double wrong = std::pow(kWrongId, double(candidate.best().readings.size()));
+  const double right = (1 - wrong) * std::exp(largest_unseen);
+  candidate.there = right / (right + wrong);
+  share_out(candidate, std::move(logs), least_evidence);
+}
+
+}  // namespace
+
+void weigh(std::vector<Candidate>& candidates, std::span<const CameraView> views,
+           const ReconstructOptions& options) {
+  const bool any_weak =
+      std::any_of(candidates.begin(), candidates.end(), [](const auto& candidate) {
+        return candidate.rejected.empty() && is_weak(candidate.best());
+      });
+  const auto scene = any_weak ? scene_of(candidates) : nullptr;
+  for (Candidate& candidate : candidates) {
+    if (!candidate.rejected.empty()) continue;
+    weigh(candidate, views, is_weak(candidate.best()) ? scene.get() : nullptr,
+          options.least_evidence);
+    if (candidate.there < 0.5) {
+      candidate.rejected = "other markers of a " + candidate.best().type()->name +
+                           " there should be seen, and are not: its id is more likely read wrongly";
+    }
+  }
+}
+
+}  // namespace vantage::detail

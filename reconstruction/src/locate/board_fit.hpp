@@ -1,0 +1,54 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "pose/pose_fit.hpp"
+
+namespace vantage::detail {
+
+/// An observation that may be this feature of the board. Its term is for the board's pose
+/// T_cam_world: the body is the world, the reference the camera.
+struct BoardPair {
+  std::size_t observation = 0;
+  std::size_t feature = 0;
+  PointTerm term;
+};
+
+/// A pose with the pairs that agree with it.
+struct BoardFit {
+  std::vector<std::size_t> pairs;  ///< rising
+  PoseFit fit;
+
+  const Pose& T_cam_world() const { return fit.T_ref_body; }
+  std::size_t points(std::span<const BoardPair> all) const;
+};
+
+/// Of all pairs, those with no point farther than `tolerance_px` from its pixel; every observation
+/// and every feature at most once, the closest pairs first to choose. Indices, rising.
+struct Agreement {
+  std::vector<std::size_t> pairs;
+  double score = 0;  ///< Σ over the pairs of 1 - (worst residual / tolerance)²
+};
+Agreement agreement(std::span<const BoardPair> pairs, const Pose& T_cam_world, double tolerance_px);
+
+/// The least squares over some pairs; nothing if there is no such pose.
+std::optional<PoseFit> fit_pairs(std::span<const BoardPair> all, std::span<const std::size_t> pairs,
+                                 const Pose& T_cam_world, double loss_sigmas);
+
+/// From a rough pose to the pairs that agree with it within `inlier_px`, and the least squares over
+/// them: fits robustly and collects anew, with less and less tolerance, until nothing changes.
+/// Nothing if fewer than four points are left.
+std::optional<BoardFit> settle(std::span<const BoardPair> pairs, const Pose& T_cam_world,
+                               double inlier_px);
+
+/// The fit again, where the residuals are larger than noise makes them in one of a thousand cases,
+/// with what calibration, lens and print add to it (model_error.hpp): adds that to the terms'
+/// sigmas.
+BoardFit with_model_error(std::vector<BoardPair>& pairs, BoardFit board);
+
+/// How far off a rough pose from a single marker may put the others, in units of `inlier_px`.
+inline constexpr double kRough = 8;
+
+}  // namespace vantage::detail

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <vector>
+
+#include "grid/block_set.hpp"
+#include "grid/grid_frame.hpp"
+#include "objects/occluders.hpp"
+#include "objects/silhouette_map.hpp"
+#include "vantage/raycore/stop_token.hpp"
+
+namespace vantage::detail {
+
+/// What one camera sees of the work area past the known objects (thesis 7.2.3); what it measured is
+/// left aside.
+struct Sight {
+  BlockSet covered;  ///< the centre is in the image and in the depth range
+  BlockSet clear;    ///< and no known object is in between; of no meaning for solid voxels
+
+  explicit Sight(const BlockLayout& layout) : covered(layout), clear(layout) {}
+};
+
+/// What does not change from camera to camera.
+struct KnownSpace {
+  const GridFrame& frame;
+  const BlockSet& solid;
+  const std::vector<std::uint8_t>& surface_octants;  ///< where a known surface may pass through
+  const Occluders& occluders;
+
+  bool surface_in(const CellRange& blocks) const;
+};
+
+/// Traces one camera. Ranges of blocks are decided at once where the camera's borders and the
+/// occluders' outlines prove that all their voxels share one answer; the others voxel by voxel.
+/// @param camera in the grid's frame.
+Sight trace_sight(const PinholeCamera& camera, const KnownSpace& known, const StopToken& stop);
+
+}  // namespace vantage::detail

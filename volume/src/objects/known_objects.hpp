@@ -1,0 +1,39 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "grid/grid_frame.hpp"
+#include "objects/object_voxels.hpp"
+#include "objects/occluders.hpp"
+#include "vantage/raycore/stop_token.hpp"
+#include "vantage/raycore/world_model.hpp"
+
+namespace vantage::detail {
+
+/// The known objects and static structures of a world, as voxels and as surfaces.
+struct KnownObjects {
+  std::vector<std::string> names;
+  std::vector<ObjectVoxels> voxels;           ///< of each object
+  BlockSet solid;                             ///< of all of them
+  std::vector<std::uint8_t> surface_octants;  ///< by block, see `mark_surface_octants`
+  std::vector<PlacedMesh> meshes;
+  std::vector<std::string> warnings;
+
+  /// Voxelises. If `stop` asks to stop, what is there is incomplete.
+  KnownObjects(const WorldModel& world, const GridFrame& frame, const Pose& T_grid_world,
+               const StopToken& stop);
+};
+
+/// @throws Error bad_input if an object or a static structure has no mesh.
+void check_meshes(const WorldModel& world);
+
+/// Calls `visit` for the objects, then for the static structures.
+template <class Visit>
+void for_each_known(const WorldModel& world, const Visit& visit) {
+  for (const KnownObject& object : world.objects) visit(object);
+  for (const KnownObject& object : world.static_structures) visit(object);
+}
+
+}  // namespace vantage::detail

@@ -1,0 +1,143 @@
+#include "objects/object_voxels.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <limits>
+#include <tuple>
+
+#include "objects/scan_lines.hpp"
+#include "objects/triangle_box.hpp"
+
+namespace vantage::detail {
+namespace {
+
+/// A box of blocks that is filled voxel by voxel, then stripped of the empty ones.
+class BlockBuffer {
+ public:
+  BlockBuffer(const BlockLayout& layout, const CellRange& voxels)
+      : layout_(layout),
+        range_{voxels.first / kBlockSide, (voxels.last.array() + (kBlockSide - 1)) / kBlockSide},
+        bits_(range_.count()) {}
+
+  void set(const Eigen::Vector3i& voxel) {
+    bits_[index(voxel / kBlockSide)].set(offset_in_block(voxel));
+  }
+
+  ObjectVoxels finish() const {
+    ObjectVoxels result;
+    range_.for_each([&](const Eigen::Vector3i& block) {
+      const BlockBits& bits = bits_[index(block)];
+      if (!bits.none()) result.blocks.push_back({layout_.index(block), bits});
+    });
+    return result;
+  }
+
+ private:
+  std::size_t index(const Eigen::Vector3i& block) const {
+    const Eigen::Vector3i b = block - range_.first, n = range_.size();
+    return (std::size_t(b.x()) * std::size_t(n.y()) + std::size_t(b.y())) * std::size_t(n.z()) +
+           std::size_t(b.z());
+  }
+
+  const BlockLayout& layout_;
+  CellRange range_;
+  std::vector<BlockBits> bits_;
+};
+
+struct Bounds {
+  Eigen::Vector3d low, high;
+
+  explicit Bounds(const std::array<Eigen::Vector3d, 3>& corners)
+      : low(corners[0].cwiseMin(corners[1]).cwiseMin(corners[2])),
+        high(corners[0].cwiseMax(corners[1]).cwiseMax(corners[2])) {}
+  explicit Bounds(const PlacedTriangles& mesh)
+      : low(Eigen::Vector3d::Constant(std::numeric_limits<double>::max())), high(-low) {
+    for (const Eigen::Vector3f& p : mesh.vertices) {
+      low = low.cwiseMin(p.cast<double>());
+      high = high.cwiseMax(p.cast<double>());
+    }
+  }
+};
+
+/// The cells of a size that a closed box touches, widened by a millionth of a cell.
+CellRange cells_touched(const Bounds& bounds, double cell_size_m, const CellRange& within) {
+  CellRange cells;
+  for (int axis = 0; axis < 3; ++axis) {
+    cells.first[axis] = floor_to_int(bounds.low[axis] / cell_size_m - 1e-6);
+    cells.last[axis] = floor_to_int(bounds.high[axis] / cell_size_m + 1e-6) + 1;
+  }
+  return cells.within(within);
+}
+
+std::array<Eigen::Vector3d, 3> corners_of(const PlacedTriangles& mesh, std::size_t triangle) {
+  return {mesh.corner(triangle, 0).cast<double>(), mesh.corner(triangle, 1).cast<double>(),
+          mesh.corner(triangle, 2).cast<double>()};
+}
+
+/// Calls `visit` for the cells that a mesh's surface touches, more than once for some.
+template <class Visit>
+void for_each_cell_touched(const PlacedTriangles& mesh, double cell_size_m, const CellRange& within,
+                           const Visit& visit) {
+  const Eigen::Vector3d half = Eigen::Vector3d::Constant((0.5 + 1e-6) * cell_size_m);
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const std::array<Eigen::Vector3d, 3> corners = corners_of(mesh, t);
+    const CellRange cells = cells_touched(Bounds(corners), cell_size_m, within);
+    if (cells.empty()) continue;
+    const bool one = cells.size() == Eigen::Vector3i::Ones();
+    cells.for_each([&](const Eigen::Vector3i& cell) {
+      const Eigen::Vector3d centre =
+          cell_size_m * (cell.cast<double>() + Eigen::Vector3d::Constant(0.5));
+      if (one || triangle_touches_box(corners, centre, half)) visit(cell);
+    });
+  }
+}
+
+void fill_inside(const PlacedTriangles& mesh, Closure closure, const CellRange& voxels,
+                 double voxel_size_m, BlockBuffer& buffer) {
+  std::vector<Crossing> crossings = scan_line_crossings(mesh, voxels, voxel_size_m);
+  std::sort(crossings.begin(), crossings.end(), [](const Crossing& a, const Crossing& b) {
+    return std::tuple(a.i, a.j, a.z) < std::tuple(b.i, b.j, b.z);
+  });
+  int winding = 0;
+  for (std::size_t n = 0; n + 1 < crossings.size(); ++n) {
+    const Crossing &here = crossings[n], &next = crossings[n + 1];
+    winding += closure == Closure::oriented ? here.sign : 1;
+    if (here.i != next.i || here.j != next.j) {
+      winding = 0;
+      continue;
+    }
+    const bool inside = closure == Closure::oriented ? winding != 0 : winding % 2 != 0;
+    if (!inside) continue;
+    const int first = std::max(first_centre_above(here.z, voxel_size_m), voxels.first.z());
+    const int last = std::min(first_centre_above(next.z, voxel_size_m), voxels.last.z());
+    for (int k = first; k < last; ++k) buffer.set({here.i, here.j, k});
+  }
+}
+
+}  // namespace
+
+ObjectVoxels object_voxels(const PlacedTriangles& mesh, Closure closure, const BlockLayout& layout,
+                           double voxel_size_m) {
+  const CellRange voxels = cells_touched(Bounds(mesh), voxel_size_m, layout.voxels());
+  if (mesh.triangles.empty() || voxels.empty()) return {};
+  BlockBuffer buffer(layout, voxels);
+  if (closure == Closure::open) {
+    for_each_cell_touched(mesh, voxel_size_m, voxels,
+                          [&](const Eigen::Vector3i& voxel) { buffer.set(voxel); });
+  } else {
+    fill_inside(mesh, closure, voxels, voxel_size_m, buffer);
+  }
+  return buffer.finish();
+}
+
+void mark_surface_octants(const PlacedTriangles& mesh, const BlockLayout& layout,
+                          double voxel_size_m, std::vector<std::uint8_t>& marks) {
+  const CellRange octants{2 * layout.blocks().first, 2 * layout.blocks().last};
+  for_each_cell_touched(
+      mesh, kOctantSide * voxel_size_m, octants, [&](const Eigen::Vector3i& octant) {
+        std::atomic_ref(marks[layout.index(octant / 2)])
+            .fetch_or(std::uint8_t(1u << octant_in_block(octant)), std::memory_order_relaxed);
+      });
+}
+
+}  // namespace vantage::detail

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "grid/block_set.hpp"
+#include "objects/mesh_instance.hpp"
+#include "vantage/volume/grid_geometry.hpp"
+
+namespace vantage::detail {
+
+/// The voxels that one object fills, block by block; only blocks that have some, in ascending
+/// order.
+struct ObjectVoxels {
+  struct Block {
+    std::size_t block;
+    BlockBits bits;
+  };
+  std::vector<Block> blocks;
+};
+
+/// The voxels whose centres are inside a closed mesh, or which an open mesh's surface touches.
+///
+/// A line along z through the centres of each column of voxels is cut by the surface. Whether a
+/// triangle meets a line is decided exactly, and a line through an edge or a vertex is treated as
+/// if it passed infinitesimally beside it, always on the same side: so it meets exactly one of the
+/// triangles that meet there, and no column ever leaks.
+///
+ObjectVoxels object_voxels(const PlacedTriangles& mesh, Closure closure, const BlockLayout& layout,
+                           double voxel_size_m);
+
+/// Marks, with one bit for each octant of each block, where a mesh's surface may pass through;
+/// never misses one. May run for several meshes at once.
+void mark_surface_octants(const PlacedTriangles& mesh, const BlockLayout& layout,
+                          double voxel_size_m, std::vector<std::uint8_t>& marks);
+
+}  // namespace vantage::detail
