@@ -1,11 +1,76 @@
+#include "evaluate/evaluate_command.hpp"
+
+#include <fmt/format.h>
+
 #include <iostream>
 #include <memory>
+#include <vector>
 
 #include "cli/command.hpp"
 #include "cli/number_checks.hpp"
-#include "evaluate/true_gain.hpp"
+#include "documents/document_value.hpp"
+#include "documents/schema_check.hpp"
+#include "documents/schemas.hpp"
+#include "documents/value_readers.hpp"
+#include "documents/yaml_document.hpp"
+#include "simulator/scene/ground_truth.hpp"
+#include "workcell/simulated_cell.hpp"
 
 namespace vantage {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// The camera that a plan suggests.
+PinholeCamera suggested_view(const Value& plan) {
+  const Value camera = plan["camera"];
+  const DepthRange range{camera["near_m"].as<double>(), camera["far_m"].as<double>()};
+  range.check(camera.place());
+  return PinholeCamera(read_intrinsics(camera), read_pose(plan["best"]["T_world_cam"]), range,
+                       camera.place());
+}
+
+double share_or_zero(double part, double whole) {
+  return whole > 0 ? part / whole : 0;
+}
+
+}  // namespace
+
+Json true_gain(const std::filesystem::path& workcell_file, const std::filesystem::path& plan_file,
+               std::optional<double> voxel_size_m) {
+  const Document document = read_yaml(plan_file);  // JSON is YAML, too
+  check_schema(document, plan_schema());
+  const Value plan(document);
+  if (plan["best"].is_null()) throw plan["best"].error("the plan has no best view to be judged");
+
+  Workcell workcell = load_workcell(workcell_file);
+  place_random_objects(workcell);
+  const SimulatedCell cell = simulated_cell(workcell);
+  std::vector<PinholeCamera> cameras;
+  for (const CellCamera& camera : workcell.cameras) cameras.push_back(camera.camera);
+  const double size_m = voxel_size_m.value_or(plan["voxel_size_m"].as<double>());
+  const GroundTruth truth(cell.scene, cameras, GridGeometry::covering(workcell.work_area, size_m));
+  const double promised = plan["best"]["newly_observed_volume_m3"].as<double>();
+  const double gain = truth.gain_m3(suggested_view(plan));
+  const double hidden = truth.grid().volume_m3(VoxelState::shadow);
+  return {{"voxel_size_m", size_m},
+          {"promised_m3", promised},
+          {"true_gain_m3", gain},
+          {"true_hidden_m3", hidden},
+          {"gain_of_promised", share_or_zero(gain, promised)},
+          {"gain_of_hidden", share_or_zero(gain, hidden)}};
+}
+
+std::string summary_of_true_gain(const Json& gain) {
+  const auto number = [&](const char* key) { return gain[key].get<double>(); };
+  return fmt::format(
+      "promised   {:.6f} m³ newly observed\n"
+      "true gain  {:.6f} m³ of the hidden volume really seen: {:.1f} % of the promise\n"
+      "hidden     {:.6f} m³ before; the view reveals {:.1f} % of it (voxels of {} m)\n",
+      number("promised_m3"), number("true_gain_m3"), 100 * number("gain_of_promised"),
+      number("true_hidden_m3"), 100 * number("gain_of_hidden"), number("voxel_size_m"));
+}
+
 namespace {
 
 struct GainArguments {

@@ -2,12 +2,23 @@
 
 #include <chrono>
 
-#include "plan/plan_request.hpp"
 #include "vantage/raycore/error.hpp"
 #include "workcell/volume_settings.hpp"
 #include "workcell/workcell.hpp"
 
 namespace vantage {
+
+PlanRequest plan_request(const Workcell& workcell, const Intrinsics& usual) {
+  PlanRequest request{.work_area = workcell.work_area,
+                      .intrinsics = workcell.movable_intrinsics.value_or(usual),
+                      .range = workcell.movable_range};
+  request.candidates = workcell.candidates;
+  request.constraints = workcell.constraints;
+  request.volume = workcell.volume;
+  if (workcell.voxel_size_m) request.voxel_size_m = *workcell.voxel_size_m;
+  return request;
+}
+
 namespace {
 
 /// The workcell file with the command line's settings on top.

@@ -6,12 +6,17 @@
 #include <vector>
 
 #include "plan/candidate_options.hpp"
-#include "plan/plan_json.hpp"
 #include "plan/plan_world.hpp"
+#include "plan/report/plan_json.hpp"
 #include "vantage/planner/plan.hpp"
 #include "vantage/raycore/world_model.hpp"
+#include "workcell/workcell.hpp"
 
 namespace vantage {
+
+/// What a workcell asks of planning.
+/// @param usual the movable camera's intrinsics, where the workcell does not say.
+PlanRequest plan_request(const Workcell& workcell, const Intrinsics& usual);
 
 /// What `vantage plan` was asked for. What is set here wins over the workcell file.
 struct PlanOptions {

@@ -8,8 +8,8 @@
 
 #include "cli/progress_line.hpp"
 #include "cli/workers.hpp"
-#include "plan/plan_pictures.hpp"
-#include "plan/plan_summary.hpp"
+#include "plan/report/plan_pictures.hpp"
+#include "plan/report/plan_summary.hpp"
 #include "vantage/raycore/error.hpp"
 #include "vantage/raycore/file.hpp"
 #include "vantage/raycore/mesh_io.hpp"

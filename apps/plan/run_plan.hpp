@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "cli/exit_code.hpp"
-#include "plan/plan_json.hpp"
+#include "plan/report/plan_json.hpp"
 #include "vantage/planner/plan.hpp"
 #include "vantage/raycore/stop_token.hpp"
 #include "vantage/raycore/world_model.hpp"

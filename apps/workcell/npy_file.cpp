@@ -4,13 +4,124 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <charconv>
+#include <set>
 #include <string>
 
 #include "vantage/raycore/error.hpp"
 #include "vantage/raycore/file.hpp"
-#include "workcell/npy_header.hpp"
 
 namespace vantage {
+namespace {
+
+/// Walks through a Python literal; knows no more of Python than such headers have.
+class Literal {
+ public:
+  Literal(std::string_view text, const std::string& where) : text_(text), where_(where) {}
+
+  /// Skips spaces; takes `token` if it is next.
+  bool take(std::string_view token) {
+    skip_spaces();
+    if (text_.substr(at_, token.size()) != token) return false;
+    at_ += token.size();
+    return true;
+  }
+  void expect(std::string_view token) {
+    if (!take(token)) fail(fmt::format("\"{}\"", token));
+  }
+
+  std::string quoted() {
+    const char* quote = take("'") ? "'" : "\"";
+    if (*quote == '"' && !take("\"")) fail("a quoted text");
+    const std::size_t end = text_.find(*quote, at_);
+    if (end == std::string_view::npos) fail("a closing quote");
+    const std::string content(text_.substr(at_, end - at_));
+    at_ = end + 1;
+    return content;
+  }
+
+  bool truth() {
+    if (take("True")) return true;
+    if (!take("False")) fail("True or False");
+    return false;
+  }
+
+  std::vector<std::int64_t> tuple() {
+    std::vector<std::int64_t> numbers;
+    expect("(");
+    while (!take(")")) {
+      skip_spaces();
+      std::int64_t number = 0;
+      const char *begin = text_.data() + at_, *end = text_.data() + text_.size();
+      const auto [rest, error] = std::from_chars(begin, end, number);
+      if (error != std::errc() || number < 0) fail("a whole number of 0 or more");
+      at_ += std::size_t(rest - begin);
+      numbers.push_back(number);
+      if (take(",")) continue;
+      expect(")");
+      break;
+    }
+    return numbers;
+  }
+
+  void expect_end() {
+    skip_spaces();
+    if (at_ != text_.size()) fail("nothing more");
+  }
+
+  [[noreturn]] void fail(const std::string& expected) const {
+    throw bad_input(
+        where_, fmt::format("the array's header reads {} at its character {}; "
+                            "expected {}; is the file damaged?",
+                            shown(text_.substr(std::min(at_, text_.size()))), at_ + 1, expected));
+  }
+
+ private:
+  void skip_spaces() {
+    while (at_ < text_.size() && (text_[at_] == ' ' || text_[at_] == '\n')) ++at_;
+  }
+
+  static std::string shown(std::string_view rest) {
+    constexpr std::size_t kMost = 20;
+    std::string text;
+    for (const char c : rest.substr(0, kMost)) text += c >= ' ' && c <= '~' ? c : '?';
+    return fmt::format("\"{}\"", text);
+  }
+
+  std::string_view text_;
+  const std::string& where_;
+  std::size_t at_ = 0;
+};
+
+}  // namespace
+
+NpyHeader parse_npy_header(std::string_view text, const std::string& where) {
+  Literal literal(text, where);
+  NpyHeader header;
+  std::set<std::string> keys;
+  literal.expect("{");
+  while (!literal.take("}")) {
+    const std::string key = literal.quoted();
+    literal.expect(":");
+    if (key == "descr") {
+      header.type = literal.quoted();
+    } else if (key == "fortran_order") {
+      header.fortran_order = literal.truth();
+    } else if (key == "shape") {
+      header.shape = literal.tuple();
+    } else {
+      literal.fail("the keys descr, fortran_order and shape only");
+    }
+    if (!keys.insert(key).second) literal.fail("every key once");
+    if (literal.take(",")) continue;
+    literal.expect("}");
+    break;
+  }
+  if (keys.size() != 3) literal.fail("all of the keys descr, fortran_order and shape");
+  literal.expect_end();
+  return header;
+}
+
 namespace {
 
 constexpr std::int64_t kMostElements = std::int64_t(1) << 30;

@@ -9,6 +9,7 @@
 #include <tbb/task_arena.h>
 
 #include <unistd.h>
+
 #include <cstdio>
 #include <cstring>
 #include <filesystem>

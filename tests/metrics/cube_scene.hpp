@@ -3,7 +3,7 @@
 #include <memory>
 #include <string>
 
-#include "metrics/reconstruction/true_object.hpp"
+#include "metrics/bop/true_object.hpp"
 #include "metrics/turns.hpp"
 #include "vantage/raycore/solids.hpp"
 #include "vantage/reconstruction/observation.hpp"

@@ -13,7 +13,7 @@
 #include "evaluate/planning/planning_json.hpp"
 #include "evaluate/planning/planning_options.hpp"
 #include "metrics/planning/planning_tables.hpp"
-#include "plan/plan_json.hpp"
+#include "plan/report/plan_json.hpp"
 #include "vantage/raycore/file.hpp"
 #include "version.hpp"
 #include "workcell/volume_settings.hpp"

@@ -6,7 +6,7 @@
 
 #include "cli/picture_file.hpp"
 #include "cli/run_time.hpp"
-#include "plan/plan_pictures.hpp"
+#include "plan/report/plan_pictures.hpp"
 #include "simulator/scene/ground_truth.hpp"
 #include "vantage/planner/planning_scene.hpp"
 #include "vantage/planner/shadow_scorer.hpp"

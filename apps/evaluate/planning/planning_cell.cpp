@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "plan/plan_request.hpp"
+#include "plan/plan_input.hpp"
 #include "simulator/depth/depth_sensor.hpp"
 #include "simulator/scene/sample_hash.hpp"
 #include "vantage/raycore/error.hpp"

@@ -9,7 +9,7 @@
 #include "documents/document_value.hpp"
 #include "documents/schema_check.hpp"
 #include "documents/yaml_document.hpp"
-#include "metrics/reconstruction/pose_errors.hpp"
+#include "metrics/bop/pose_errors.hpp"
 #include "vantage/raycore/error.hpp"
 
 namespace vantage {

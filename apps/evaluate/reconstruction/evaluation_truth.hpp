@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "metrics/reconstruction/true_object.hpp"
+#include "metrics/bop/true_object.hpp"
 #include "vantage/reconstruction/bop_scene.hpp"
 #include "workcell/workcell.hpp"
 

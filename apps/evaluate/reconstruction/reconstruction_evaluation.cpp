@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "evaluate/reconstruction/evaluation_truth.hpp"
-#include "metrics/reconstruction/pose_errors.hpp"
+#include "metrics/bop/pose_errors.hpp"
 #include "vantage/raycore/error.hpp"
 #include "workcell/marker_dictionaries.hpp"
 

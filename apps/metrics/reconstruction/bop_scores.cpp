@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "metrics/reconstruction/pose_errors.hpp"
+#include "metrics/bop/pose_errors.hpp"
 
 namespace vantage {
 namespace {

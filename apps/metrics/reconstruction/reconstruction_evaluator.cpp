@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "metrics/reconstruction/pose_errors.hpp"
+#include "metrics/bop/pose_errors.hpp"
 #include "vantage/raycore/error.hpp"
 
 namespace vantage {

@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "metrics/reconstruction/instance_matching.hpp"
+#include "metrics/bop/instance_matching.hpp"
+#include "metrics/bop/true_object.hpp"
+#include "metrics/bop/visible_discrepancy.hpp"
 #include "metrics/reconstruction/touching_corners.hpp"
-#include "metrics/reconstruction/true_object.hpp"
-#include "metrics/reconstruction/visible_discrepancy.hpp"
 #include "vantage/reconstruction/reconstruct.hpp"
 
 namespace vantage {

@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "metrics/reconstruction/true_object.hpp"
+#include "metrics/bop/true_object.hpp"
 #include "vantage/reconstruction/observation.hpp"
 
 namespace vantage {

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "metrics/reconstruction/error_model.hpp"
+#include "metrics/bop/error_model.hpp"
 
 namespace vantage {
 

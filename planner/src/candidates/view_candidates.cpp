@@ -7,7 +7,6 @@
 #include <numbers>
 #include <numeric>
 
-#include "candidates/path_views.hpp"
 #include "candidates/view_directions.hpp"
 #include "vantage/raycore/error.hpp"
 

@@ -20,4 +20,9 @@ std::int64_t fan_size(const ViewFan& fan);
 void add_fan(const Eigen::Vector3d& eye, const Eigen::Vector3d& target, const ViewFan& fan,
              std::vector<ViewCandidate>& candidates);
 
+/// Poses along a path: at its start, after every `step_m` of the way, and at its end. Positions are
+/// interpolated linearly, rotations by the shortest way around.
+/// @throws Error bad_input for an empty path, or one with more than `most` poses.
+std::vector<Pose> poses_along(const std::vector<Pose>& path, double step_m, std::int64_t most);
+
 }  // namespace vantage::detail

@@ -1,8 +1,8 @@
-#include "vantage/planner/planning_scene.hpp"
+#include "scene/planning_scene.hpp"
 
 #include <tbb/parallel_invoke.h>
 
-#include "scene/shadow_centroid.hpp"
+#include "vantage/planner/planning_scene.hpp"
 #include "vantage/raycore/scene_builder.hpp"
 #include "vantage/volume/classify.hpp"
 #include "vantage/volume/voxel_surface.hpp"

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "mesh/solid_checks.hpp"
+#include "mesh/solids.hpp"
 #include "mesh/surface_nets.hpp"
 #include "vantage/raycore/error.hpp"
 #include "vantage/raycore/solids.hpp"

@@ -1,143 +1,88 @@
-// PLY: a header that declares elements and their properties, then the elements. Vertices have x, y
-// and z; a face has a list of vertex indices; everything else is passed over.
+#include "mesh/mesh_ply.hpp"
+
 #include <fmt/format.h>
 
-#include <cmath>
-#include <memory>
-
-#include "mesh/mesh_readers.hpp"
-#include "mesh/ply_body.hpp"
-#include "mesh/ply_header.hpp"
+#include "core/byte_order.hpp"
 
 namespace vantage::detail {
-namespace {
 
-/// Marks a property of a vertex that is no coordinate.
-constexpr int kNotUsed = -1;
+bool AsciiPlyBody::skip_blank_lines() {
+  do {
+    TextScanner ahead = text_;
+    if (!ahead.word().empty()) return true;
+  } while (text_.next_line());
+  return false;
+}
 
-/// For each property of a vertex: 0, 1, 2 for x, y, z, or kNotUsed.
-std::vector<int> vertex_axes(const PlyElement& element, const std::string& file) {
-  std::vector<int> axes;
-  int found = 0;
-  for (const PlyProperty& property : element.properties) {
-    const bool is_axis = property.name == "x" || property.name == "y" || property.name == "z";
-    axes.push_back(is_axis && !property.count_type ? property.name[0] - 'x' : kNotUsed);
-    found += axes.back() != kNotUsed ? 1 : 0;
+void AsciiPlyBody::begin_element(const PlyElement& element, std::uint64_t number) {
+  if (skip_blank_lines()) return;
+  text_.fail(fmt::format("the file ends after {} of {} of the element {}; it is truncated", number,
+                         element.count, in_quotes(element.name)));
+}
+
+double AsciiPlyBody::value(PlyType) {
+  return text_.number("the next value");
+}
+
+void AsciiPlyBody::end_element() {
+  const std::string_view word = text_.word();
+  if (!word.empty()) {
+    text_.fail(fmt::format("{} follows the last value that the header declares for this line",
+                           in_quotes(word)));
   }
-  if (found == 3) return axes;
-  throw bad_input(file,
-                  "the header's element \"vertex\" has no properties x, y and z that are "
-                  "single numbers");
+  text_.next_line();
 }
 
-/// The number of the property that has a face's corners.
-std::size_t corner_property(const PlyElement& element, const std::string& file) {
-  for (std::size_t i = 0; i < element.properties.size(); ++i) {
-    const PlyProperty& property = element.properties[i];
-    if (property.name != "vertex_indices" && property.name != "vertex_index") continue;
-    if (property.count_type && property.type < PlyType::float32) return i;
+std::uint64_t AsciiPlyBody::room_for(PlyType) const {
+  return (end_ - text_.position() + 1) / 2;
+}
+
+void AsciiPlyBody::expect_end() {
+  if (skip_blank_lines()) text_.fail("expected the file's end: the header claims no more elements");
+}
+
+void BinaryPlyBody::begin_element(const PlyElement& element, std::uint64_t number) {
+  place_.unit = element.name;
+  place_.number = number;
+}
+
+template <class T>
+double BinaryPlyBody::take() {
+  if (left_.size() < sizeof(T)) place_.fail("the file ends here; it is truncated");
+  const T result = load<T>(left_.data(), order_);
+  left_ = left_.subspan(sizeof(T));
+  return double(result);
+}
+
+double BinaryPlyBody::value(PlyType type) {
+  switch (type) {
+    case PlyType::int8:
+      return take<std::int8_t>();
+    case PlyType::uint8:
+      return take<std::uint8_t>();
+    case PlyType::int16:
+      return take<std::int16_t>();
+    case PlyType::uint16:
+      return take<std::uint16_t>();
+    case PlyType::int32:
+      return take<std::int32_t>();
+    case PlyType::uint32:
+      return take<std::uint32_t>();
+    case PlyType::float32:
+      return take<float>();
+    case PlyType::float64:
+      return take<double>();
   }
-  throw bad_input(file,
-                  "the header's element \"face\" has no property \"vertex_indices\" that is a "
-                  "list of integers");
+  place_.fail("a property of no known type");
 }
 
-/// Reads a list's length and checks it against what the file can still hold.
-std::uint64_t read_length(PlyBody& body, const PlyProperty& list) {
-  const double length = body.value(*list.count_type);
-  const std::uint64_t room = body.room_for(list.type);
-  if (length >= 0 && length <= double(room) && length == std::floor(length)) {
-    return std::uint64_t(length);
-  }
-  body.place().fail(
-      fmt::format("the list {} has the length {}; expected an integer from 0 to {}, "
-                  "as many as the file can still hold",
-                  in_quotes(list.name), length, room));
-}
-
-void skip(PlyBody& body, const PlyProperty& property) {
-  const std::uint64_t count = property.count_type ? read_length(body, property) : 1;
-  for (std::uint64_t i = 0; i < count; ++i) body.value(property.type);
-}
-
-void read_vertices(PlyBody& body, const PlyElement& element, MeshCollector& mesh) {
-  const std::vector<int> axes = vertex_axes(element, mesh.file());
-  mesh.reserve(element.count, 0);
-  for (std::uint64_t i = 0; i < element.count; ++i) {
-    body.begin_element(element, i);
-    Eigen::Vector3d p_file;
-    for (std::size_t k = 0; k < axes.size(); ++k) {
-      if (axes[k] == kNotUsed) {
-        skip(body, element.properties[k]);
-      } else {
-        p_file[axes[k]] = body.value(element.properties[k].type);
-      }
-    }
-    mesh.add_vertex(p_file, body.place());
-    body.end_element();
-  }
-}
-
-std::int64_t read_index(PlyBody& body, PlyType type) {
-  const double index = body.value(type);
-  // An ASCII file can have anything here; what fits no index fits no integer either.
-  if (std::abs(index) < 1e15 && index == std::floor(index)) return std::int64_t(index);
-  body.place().fail(fmt::format("the face has a corner at vertex {}; expected an integer", index));
-}
-
-void read_faces(PlyBody& body, const PlyElement& element, std::uint64_t vertex_count,
-                MeshCollector& mesh) {
-  const std::size_t used = corner_property(element, mesh.file());
-  std::vector<std::int64_t> corners;
-  for (std::uint64_t i = 0; i < element.count; ++i) {
-    body.begin_element(element, i);
-    for (std::size_t k = 0; k < element.properties.size(); ++k) {
-      const PlyProperty& property = element.properties[k];
-      if (k != used) {
-        skip(body, property);
-        continue;
-      }
-      corners.resize(read_length(body, property));
-      for (std::int64_t& corner : corners) corner = read_index(body, property.type);
-    }
-    mesh.add_polygon(corners, vertex_count, body.place());
-    body.end_element();
-  }
-}
-
-void read_elements(PlyBody& body, const PlyHeader& header, MeshCollector& mesh) {
-  const PlyElement* vertices = header.find("vertex");
-  if (vertices == nullptr) throw bad_input(mesh.file(), "the header has no element \"vertex\"");
-  for (const PlyElement& element : header.elements) {
-    if (&element == vertices) {
-      read_vertices(body, element, mesh);
-    } else if (element.name == "face") {
-      read_faces(body, element, vertices->count, mesh);
-    } else {
-      for (std::uint64_t i = 0; i < element.count; ++i) {
-        body.begin_element(element, i);
-        for (const PlyProperty& property : element.properties) skip(body, property);
-        body.end_element();
-      }
-    }
-  }
-  body.expect_end();
-}
-
-}  // namespace
-
-void read_ply(std::span<const std::uint8_t> bytes, MeshCollector& mesh) {
-  TextScanner text(as_text(bytes), mesh.file());
-  const PlyHeader header = read_ply_header(text);
-  const std::span<const std::uint8_t> data = bytes.subspan(text.position());
-  check_ply_counts(header, data.size(), mesh.file());
-  if (header.format == PlyFormat::ascii) {
-    AsciiPlyBody body(text, data.size());
-    return read_elements(body, header, mesh);
-  }
-  const bool little = header.format == PlyFormat::little_endian;
-  BinaryPlyBody body(data, little ? std::endian::little : std::endian::big, mesh.file());
-  read_elements(body, header, mesh);
+void BinaryPlyBody::expect_end() {
+  // Some programs end a binary file with a line end as well.
+  if (left_.size() <= 2) return;
+  throw bad_input(std::string(place_.file),
+                  fmt::format("{} bytes follow the last element that the header claims; its counts "
+                              "are wrong or the file is damaged",
+                              left_.size()));
 }
 
 }  // namespace vantage::detail

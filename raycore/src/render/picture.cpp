@@ -8,7 +8,7 @@
 #include <numbers>
 #include <vector>
 
-#include "scene/pixel_order.hpp"
+#include "scene/pixel_tile.hpp"
 #include "vantage/raycore/error.hpp"
 
 namespace vantage {

@@ -8,7 +8,7 @@
 #include <cstddef>
 
 #include "core/packet_bits.hpp"
-#include "scene/packet.hpp"
+#include "scene/ray_packet.hpp"
 
 namespace vantage::detail {
 

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "scene/embree_device.hpp"
+#include "scene/embree.hpp"
 #include "vantage/raycore/pose.hpp"
 #include "vantage/raycore/triangle_mesh.hpp"
 

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "scene/embree_device.hpp"
+#include "scene/embree.hpp"
 #include "unobserved/lattice_probe.hpp"
 #include "vantage/raycore/triangle_mesh.hpp"
 #include "vantage/raycore/visibility_mesh.hpp"

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "scene/embree_device.hpp"
+#include "scene/embree.hpp"
 #include "vantage/raycore/triangle_mesh.hpp"
 
 namespace vantage::detail {

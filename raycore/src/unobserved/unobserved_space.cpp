@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "scene/batch.hpp"
-#include "scene/packet.hpp"
-#include "scene/tile_rays.hpp"
+#include "scene/pixel_tile.hpp"
+#include "scene/ray_packet.hpp"
 #include "unobserved/lattice_probe.hpp"
 #include "unobserved/lattice_scene.hpp"
 #include "unobserved/seen_walk.hpp"

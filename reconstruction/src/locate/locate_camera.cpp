@@ -4,9 +4,8 @@
 
 #include <algorithm>
 
-#include "locate/board_hypotheses.hpp"
+#include "locate/board_pose.hpp"
 #include "locate/match_board.hpp"
-#include "locate/planar_ambiguity.hpp"
 #include "pose/solve_pnp.hpp"
 
 namespace vantage {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "locate/board_fit.hpp"
+#include "locate/board_pose.hpp"
 #include "vantage/reconstruction/observation.hpp"
 
 namespace vantage::detail {

@@ -1,3 +1,4 @@
+// Private: from sightings to votes over (type, 6DoF).
 #pragma once
 
 #include <array>
@@ -8,7 +9,6 @@
 #include "hypothesis/expand_consensus.hpp"
 #include "voting/vote_table.hpp"
 
-// Private: from sightings to votes over (type, 6DoF).
 namespace vantage::detail {
 
 /// What the sightings may be: `readings[first[i]]` to `readings[first[i + 1]]`, without the last,

@@ -2,7 +2,7 @@
 
 #include <doctest/doctest.h>
 
-#include "plan/candidate_json.hpp"
+#include "plan/report/candidate_json.hpp"
 #include "support/expect_error.hpp"
 #include "support/test_data.hpp"
 

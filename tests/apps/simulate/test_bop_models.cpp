@@ -5,7 +5,6 @@
 #include <nlohmann/json.hpp>
 
 #include "simulate/bop_models.hpp"
-#include "simulate/bop_ply.hpp"
 #include "simulator/markers/marker_print.hpp"
 #include "support/test_data.hpp"
 #include "vantage/raycore/mesh_io.hpp"

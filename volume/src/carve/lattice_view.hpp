@@ -4,7 +4,6 @@
 #include <optional>
 #include <vector>
 
-#include "carve/lattice_axis.hpp"
 #include "carve/lattice_layer.hpp"
 #include "grid/grid_frame.hpp"
 #include "grid/hierarchical_z.hpp"

@@ -1,6 +1,6 @@
 #include "classify/anti_alias.hpp"
 
-#include "grid/neighbourhood.hpp"
+#include "grid/block_set.hpp"
 
 namespace vantage::detail {
 

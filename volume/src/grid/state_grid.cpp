@@ -8,7 +8,7 @@
 #include <openvdb/tools/Prune.h>
 
 #include "grid/mask_blocks.hpp"
-#include "grid/state_masks.hpp"
+#include "grid/state_grid_impl.hpp"
 #include "vantage/raycore/error.hpp"
 
 namespace vantage {

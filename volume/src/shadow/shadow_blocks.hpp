@@ -1,13 +1,12 @@
 #pragma once
 
-#include "grid/openvdb.hpp"
-
 #include <array>
 #include <cstdint>
 #include <memory>
 #include <vector>
 
 #include "grid/mask_blocks.hpp"
+#include "grid/openvdb.hpp"
 
 namespace vantage::detail {
 
@@ -54,5 +53,13 @@ class ShadowBlocks {
   std::uint32_t component_count_ = 0;
   openvdb::Int32Tree number_at_{-1};  ///< in the list, by the block's place among blocks
 };
+
+/// Voxels of `within` that hang together by faces with those of `seed` inside the block; bits
+/// spread by shifts, all voxels at once.
+BlockWords flooded(const BlockWords& seed, const BlockWords& within);
+
+/// The voxels of a block, split into those that hang together by faces inside the block, in the
+/// order of their first voxels. There are at most 256.
+std::vector<BlockWords> local_components(const BlockWords& words);
 
 }  // namespace vantage::detail

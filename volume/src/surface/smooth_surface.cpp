@@ -6,7 +6,7 @@
 #include <openvdb/tree/LeafManager.h>
 
 #include "grid/mask_blocks.hpp"
-#include "grid/state_masks.hpp"
+#include "grid/state_grid_impl.hpp"
 #include "surface/field_surface.hpp"
 
 namespace vantage {

@@ -13,7 +13,6 @@
 #include "scene/tile_bounds.hpp"
 #include "scoring/mesh/mesh_pixels.hpp"
 #include "scoring/mesh/unseen_cells.hpp"
-#include "scoring/mesh/unseen_volume.hpp"
 #include "scoring/shadow/depth_weight.hpp"
 #include "vantage/raycore/error.hpp"
 #include "vantage/raycore/unobserved_space.hpp"

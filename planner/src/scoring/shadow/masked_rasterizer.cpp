@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scoring/shadow/row_spans.hpp"
 #include "vantage/raycore/multiversion.hpp"
 
 namespace vantage::detail {

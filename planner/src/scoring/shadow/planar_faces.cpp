@@ -3,7 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 
-#include "scoring/voxel/morton_order.hpp"
+#include "scoring/voxel/point_hierarchy.hpp"
 
 namespace vantage::detail {
 namespace {

@@ -9,6 +9,10 @@
 
 namespace vantage::detail {
 
+/// The points' places along a Z-shaped curve through their box, so that neighbours in the order are
+/// neighbours in space; among equals as given.
+std::vector<std::uint32_t> z_curve_order(PointsView points);
+
 /// Points that lie in one block share a box, and eight blocks that follow each other share one of
 /// the next level: 4 packets each of 16 make the lowest.
 inline constexpr std::size_t kPacketsPerBlock = 4;

@@ -1,0 +1,170 @@
+#include "plan/report/plan_json.hpp"
+
+#include <algorithm>
+
+#include "cli/inputs_json.hpp"
+#include "cli/pose_json.hpp"
+#include "cli/run_time.hpp"
+#include "plan/report/candidate_json.hpp"
+#include "plan/report/views_json.hpp"
+#include "version.hpp"
+#include "workcell/volume_settings.hpp"
+
+namespace vantage {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::size_t kMostRegions = 20;
+
+double volume_m3(const Plan& plan, std::uint64_t voxels) {
+  return double(voxels) * plan.classified->geometry().voxel_volume_m3();
+}
+
+Json region_json(const ShadowRegion& region, const GridGeometry& geometry) {
+  const double voxel_m3 = geometry.voxel_volume_m3();
+  return {{"volume_m3", double(region.voxels) * voxel_m3},
+          {"unseen_m3", double(region.unseen_voxels) * voxel_m3},
+          {"centroid_m", to_json(region.centroid_m)},
+          {"min_m", to_json(geometry.corner(region.min_voxel))},
+          {"max_m", to_json(geometry.corner(region.max_voxel + Eigen::Vector3i::Ones()))}};
+}
+
+}  // namespace
+
+Json volumes_json(const Plan& plan) {
+  if (plan.classified == nullptr) return nullptr;
+  const StateGrid& grid = *plan.classified;
+  const std::uint64_t shadow = grid.count(VoxelState::shadow), unseen = grid.report().unseen_shadow;
+  return {{"work_area", grid.geometry().volume_m3()},
+          {"occupied", grid.volume_m3(VoxelState::occupied)},
+          {"free", grid.volume_m3(VoxelState::free)},
+          {"shadow", grid.volume_m3(VoxelState::shadow)},
+          {"shadow_hidden", volume_m3(plan, shadow - unseen)},
+          {"shadow_unseen", volume_m3(plan, unseen)}};
+}
+
+Json anti_alias_json(const Plan& plan) {
+  if (plan.classified == nullptr) return nullptr;
+  return {{"applied", plan.request.volume.anti_aliased()},
+          {"volume_m3", volume_m3(plan, plan.classified->report().aliased_shadow)}};
+}
+
+Json conflicts_json(const Plan& plan) {
+  if (plan.classified == nullptr) return nullptr;
+  Json list = Json::array();
+  for (const ObjectConflict& conflict : plan.classified->report().conflicts) {
+    list.push_back({{"object", conflict.object},
+                    {"volume_m3", volume_m3(plan, conflict.voxels)},
+                    {"object_volume_m3", volume_m3(plan, conflict.of_voxels)}});
+  }
+  return list;
+}
+
+Json regions_json(const ShadowRegions* regions) {
+  if (regions == nullptr) return nullptr;
+  Json largest = Json::array();
+  for (std::size_t r = 0; r < std::min(regions->list().size(), kMostRegions); ++r) {
+    largest.push_back(region_json(regions->list()[r], regions->geometry()));
+  }
+  return {{"count", regions->list().size()}, {"largest", largest}};
+}
+
+Json warnings_json(const Plan& plan) {
+  return plan.classified == nullptr ? Json::array() : Json(plan.classified->report().warnings);
+}
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+}  // namespace
+
+Json plan_to_json(const Plan& plan, const ShadowRegions* regions,
+                  const std::vector<ViewExplanation>& explained, const PlanRecord& record) {
+  return {{"vantage", kVersion},
+          {"method", plan.request.method.name},
+          {"score_unit", plan.score_unit_name.empty() ? Json() : Json(plan.score_unit_name)},
+          {"partial", plan.stopped != StopReason::none},
+          {"finished_candidates", plan.finished},
+          {"camera", camera_json(plan.request)},
+          {"best", best_json(plan)},
+          {"views", views_json(plan)},
+          {"ranked", ranked_json(plan)},
+          {"rejections", rejections_json(plan)},
+          {"explanations", explanations_json(plan, explained)},
+          {"candidates", candidates_json(plan)},
+          {"volumes_m3", volumes_json(plan)},
+          {"anti_alias", anti_alias_json(plan)},
+          {"conflicts", conflicts_json(plan)},
+          {"shadow_regions", regions_json(regions)},
+          {"warnings", warnings_json(plan)},
+          {"voxel_size_m", plan.request.voxel_size_m},
+          {"timing_ms",
+           {{"load", milliseconds(record.load_s)},
+            {"classify", milliseconds(plan.classify_s)},
+            {"score", milliseconds(plan.score_s)},
+            {"total", milliseconds(record.total_s)}}},
+          {"config", record.config},
+          {"inputs", inputs_json(record.inputs)}};
+}
+
+Json camera_json(const PlanRequest& request) {
+  const Intrinsics& k = request.intrinsics;
+  return {{"width", k.width},
+          {"height", k.height},
+          {"fx", k.fx},
+          {"fy", k.fy},
+          {"cx", k.cx},
+          {"cy", k.cy},
+          {"near_m", request.range.near_m},
+          {"far_m", request.range.far_m}};
+}
+
+namespace {
+
+/// Null for the methods that it does not concern.
+Json mesh_json(const MethodOptions& method) {
+  if (method.name != "mesh") return nullptr;
+  const VisibilityOptions& visibility = method.mesh.visibility;
+  return {{"weight", method.mesh.weight == MeshWeight::volume ? "volume" : "depth"},
+          {"step_px", visibility.step_px},
+          {"holes", visibility.holes == DepthHoles::fill ? "fill" : "unknown"},
+          {"fill_reach_px", visibility.fill_reach_px},
+          {"offset_sigmas", visibility.offset_sigmas},
+          {"opening_m", method.mesh.opening_m},
+          {"enlarge", method.mesh.enlarge},
+          {"image_width", method.mesh.image_width},
+          {"exact_views", method.mesh.exact_views},
+          {"shortlist", method.mesh.shortlist},
+          {"shortlist_voxel_m", method.mesh.shortlist_voxel_m}};
+}
+
+}  // namespace
+
+Json config_of(const PlanRequest& request) {
+  Json travel;
+  if (request.search.travel) {
+    travel = {{"weight_per_m", request.search.travel->weight_per_m},
+              {"from_m", to_json(request.search.travel->from_m)}};
+  }
+  return {
+      {"work_area",
+       {{"min_m", to_json(request.work_area.min())}, {"max_m", to_json(request.work_area.max())}}},
+      {"candidates", config_of(request.candidates, request.work_area)},
+      {"constraints", config_of(request.constraints)},
+      {"depth_power", request.method.depth_power},
+      {"mesh", mesh_json(request.method)},
+      {"servo",
+       {{"iterations", request.servo.iterations}, {"image_width", request.servo.image_width}}},
+      {"polish", {{"views", request.polish.views}, {"image_width", request.polish.image_width}}},
+      {"ranked", request.search.ranked},
+      {"travel", travel},
+      {"views",
+       {{"most", request.views.most},
+        {"least_gain_m3", request.views.least_gain_m3},
+        {"least_gain_share", request.views.least_gain_share}}},
+      {"volume", config_of(request.volume)}};
+}
+
+}  // namespace vantage
