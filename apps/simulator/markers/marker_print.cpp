@@ -52,11 +52,12 @@ void for_each_texel(ColorImage& texture, const Region& region, const PrintedMark
   };
   const int u_end = clip(centre.x() + reach - region.left_m + texel_m, region.width);
   const int v_end = clip(region.top_m - centre.y() + reach + texel_m, region.height);
+  const Eigen::Vector3d along_u = marker.T_marker_face.rotation().col(0);
   for (int v = clip(region.top_m - centre.y() - reach, region.height); v < v_end; ++v) {
+    const Eigen::Vector3d row =
+        marker.T_marker_face * Eigen::Vector3d(0, region.top_m - (v + 0.5) * texel_m, 0);
     for (int u = clip(centre.x() - reach - region.left_m, region.width); u < u_end; ++u) {
-      const Eigen::Vector3d p_face(region.left_m + (u + 0.5) * texel_m,
-                                   region.top_m - (v + 0.5) * texel_m, 0);
-      const Eigen::Vector3d p_marker = marker.T_marker_face * p_face;
+      const Eigen::Vector3d p_marker = row + (region.left_m + (u + 0.5) * texel_m) * along_u;
       if (std::max(std::abs(p_marker.x()), std::abs(p_marker.y())) > half_side) continue;
       paint(texture.pixel(region.u + u, region.v + v), p_marker);
     }
@@ -71,39 +72,62 @@ void print_paper(ColorImage& texture, const Region& region, const PrintedMarker&
       [](std::uint8_t* texel, const Eigen::Vector3d&) { std::fill_n(texel, 3, kWhite); });
 }
 
-/// How much of a texel around `p` (marker's frame) is white, 0 to 1.
-double whiteness(const PrintedMarker& marker, const Eigen::Vector3d& p, double texel_m) {
-  const int side = marker.cells.side;
-  const double cell_m = marker.size_m / side;
-  const auto is_white = [&](const Eigen::Vector3d& at) {
-    const double column = (at.x() + marker.size_m / 2) / cell_m;
-    const double row = (marker.size_m / 2 - at.y()) / cell_m;
-    if (std::min(column, row) < 0 || std::max(column, row) >= side) return true;
-    return bool(marker.cells.white[std::size_t(int(row) * side + int(column))]);
-  };
-  const auto is_inside = [&](double x) {
-    const double cells = x / cell_m + side / 2.0;
-    return std::abs(cells - std::round(cells)) * cell_m > 0.75 * texel_m;
-  };
-  if (is_inside(p.x()) && is_inside(p.y())) return is_white(p) ? 1 : 0;
-  constexpr int kSamples = 16;  // along each side
-  int white = 0;
-  for (int i = 0; i < kSamples * kSamples; ++i) {
-    const Eigen::Vector3d away((i % kSamples + 0.5) / kSamples - 0.5,
-                               (i / kSamples + 0.5) / kSamples - 0.5, 0);
-    white += is_white(p + texel_m * (marker.T_marker_face.rotation() * away)) ? 1 : 0;
+/// How much of a texel is white, 0 to 1; plain numbers, as there are millions of texels.
+class Whiteness {
+ public:
+  Whiteness(const PrintedMarker& marker, double texel_m)
+      : cells_(marker.cells),
+        cells_per_m_(marker.cells.side / marker.size_m),
+        texel_(texel_m * cells_per_m_),
+        along_u_(step(marker, 0)),
+        along_v_(step(marker, 1)) {}
+
+  /// @param p the texel's centre in the marker's frame.
+  double operator()(const Eigen::Vector3d& p) const {
+    const double half = 0.5 * cells_.side;
+    const double column = half + p.x() * cells_per_m_, row = half - p.y() * cells_per_m_;
+    if (is_inside(column) && is_inside(row)) return is_white(column, row) ? 1 : 0;
+    int white = 0;
+    for (int j = 0; j < kSamples; ++j) {
+      for (int i = 0; i < kSamples; ++i) {
+        const double u = i - 0.5 * (kSamples - 1), v = j - 0.5 * (kSamples - 1);
+        white += is_white(column + u * along_u_.x() + v * along_v_.x(),
+                          row + u * along_u_.y() + v * along_v_.y());
+      }
+    }
+    return double(white) / (kSamples * kSamples);
   }
-  return double(white) / (kSamples * kSamples);
-}
+
+ private:
+  static constexpr int kSamples = 16;  // along each side of a texel
+
+  /// From sample to sample along an axis of the face, in columns and rows of cells.
+  Eigen::Vector2d step(const PrintedMarker& marker, int axis) const {
+    const Eigen::Vector3d along = marker.T_marker_face.rotation().col(axis);
+    return texel_ / kSamples * Eigen::Vector2d(along.x(), -along.y());
+  }
+
+  bool is_inside(double cells) const { return std::abs(cells - std::round(cells)) > 0.75 * texel_; }
+
+  bool is_white(double column, double row) const {
+    if (std::min(column, row) < 0 || std::max(column, row) >= cells_.side) return true;
+    return cells_.white[std::size_t(int(row) * cells_.side + int(column))];
+  }
+
+  const MarkerCells& cells_;
+  double cells_per_m_, texel_;  ///< a texel's side in cells
+  Eigen::Vector2d along_u_, along_v_;
+};
 
 /// Texels on an edge get what they have of both sides: detectors that know the pattern find its
 /// edges to a hundredth of a pixel, and with texels of one side only those are elsewhere.
 void print_cells(ColorImage& texture, const Region& region, const PrintedMarker& marker,
                  double texel_m) {
   const float black = srgb_to_linear(kBlack / 255.0f), white = srgb_to_linear(kWhite / 255.0f);
+  const Whiteness whiteness(marker, texel_m);
   for_each_texel(texture, region, marker, texel_m, marker.size_m / 2 + texel_m,
                  [&](std::uint8_t* texel, const Eigen::Vector3d& p) {
-                   const float part = float(whiteness(marker, p, texel_m));
+                   const float part = float(whiteness(p));
                    std::fill_n(texel, 3, linear_to_srgb8(black + part * (white - black)));
                  });
 }

@@ -180,8 +180,10 @@ double log_of_unseen(const Explanation& object, std::span<const CameraView> view
 void share_out(Candidate& candidate, std::vector<double> logs, double least_evidence) {
   std::vector<std::size_t> order(logs.size());
   std::iota(order.begin(), order.end(), std::size_t(0));
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return logs[a] > logs[b]; });
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return goes_before(logs[a], candidate.ways[a].explanation, logs[b],
+                       candidate.ways[b].explanation);
+  });
   std::vector<FinalFit> ways;
   double sum = 0;
   candidate.shares.clear();
@@ -220,6 +222,12 @@ void weigh(Candidate& candidate, std::span<const CameraView> views, const Scene*
 }
 
 }  // namespace
+
+bool goes_before(double log, const Explanation& way, double other_log, const Explanation& other) {
+  constexpr double kRounding = 1e-9;
+  const double rank = std::round(log / kRounding), other_rank = std::round(other_log / kRounding);
+  return rank != other_rank ? rank > other_rank : way.type()->name < other.type()->name;
+}
 
 void weigh(std::vector<Candidate>& candidates, std::span<const CameraView> views,
            const ReconstructOptions& options) {

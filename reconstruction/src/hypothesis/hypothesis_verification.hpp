@@ -21,6 +21,11 @@ struct Candidate {
   const Explanation& best() const { return ways.front().explanation; }
 };
 
+/// Whether a way is listed before another one: the likelier first; ways that only rounding tells
+/// apart by the names of their types, so that the order does not depend on it.
+/// @param log the way's logarithmic likelihood.
+bool goes_before(double log, const Explanation& way, double other_log, const Explanation& other);
+
 /// Leaves out objects whose sightings all lie where an object with more of them (and at least two)
 /// shows another of its markers, which that view does not have: their ids were read wrongly.
 void reject_misread(std::vector<Candidate>& candidates, const Bounds& bounds);

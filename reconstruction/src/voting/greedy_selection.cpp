@@ -43,24 +43,26 @@ std::optional<Elected> weighed(std::vector<Way> ways, double least_evidence) {
   for (const FinalFit& fit : fits) costs.push_back(cost_of(fit, scale));
   const double least = *std::min_element(costs.begin(), costs.end());
   const bool tie = *std::max_element(nets.begin(), nets.end()) == 0;
-  std::vector<std::pair<double, std::size_t>> shares;
+  std::vector<std::pair<double, std::size_t>> shares;  // their logarithms, and whose they are
   for (std::size_t i = 0; i < ways.size(); ++i) {
     const double votes = tie && nets[i] == 0 ? 1 : nets[i];
     if (costs[i] - least > least_evidence || votes <= 0) continue;
-    shares.emplace_back(-votes * std::exp(-0.5 * (costs[i] - least)), i);
+    shares.emplace_back(std::log(votes) - 0.5 * (costs[i] - least), i);
   }
   if (shares.empty()) return std::nullopt;
-  std::sort(shares.begin(), shares.end());  // the largest first, of equals the first
+  std::ranges::stable_sort(shares, [&](const auto& a, const auto& b) {
+    return goes_before(a.first, fits[a.second].explanation, b.first, fits[b.second].explanation);
+  });
   const Explanation best = fits[shares.front().second].explanation;
   std::erase_if(shares, [&](const auto& share) {
     return common(best, fits[share.second].explanation) < best.readings.size();
   });
   double sum = 0;
-  for (const auto& [share, i] : shares) sum -= share;
+  for (const auto& [log, i] : shares) sum += std::exp(log);
   Elected elected;
-  for (const auto& [share, i] : shares) {
+  for (const auto& [log, i] : shares) {
     elected.candidate.ways.push_back(std::move(fits[i]));
-    elected.candidate.shares.push_back(-share / sum);
+    elected.candidate.shares.push_back(std::exp(log) / sum);
     elected.verdicts.push_back(std::move(ways[i].verdict));
   }
   const double against = double(elected.verdicts.front().against);
