@@ -6,10 +6,12 @@
 // near. So its word is only taken if what comes next agrees: Embree's next hit must be a way out of
 // the volume, from outside it would be a way in; and where there is none, the ray must still be
 // inside where it comes to the volume's outer border or to its own end.
+
 #include "unobserved/seen_walk.hpp"
 
 #include "scene/pixel_tile.hpp"
 #include "unobserved/seen_exits.hpp"
+#include "unobserved/seen_walkers.hpp"
 #include "vantage/raycore/multiversion.hpp"
 
 namespace vantage::detail {
