@@ -71,13 +71,12 @@ for name in castle clutter; do
 done
 keep data_bin simulated_bin
 step "evaluate planning"
-(cd workcells && vantage evaluate planning wall.yaml:side wall.yaml:top two_pillars.yaml \
-  corridor.yaml:left,right foreign_objects.yaml+ideal --voxel-size 0.01 --no-pictures \
-  -o ../evaluation >/dev/null 2>&1)
+(cd workcells && vantage evaluate planning wall.yaml:side two_pillars.yaml corridor.yaml:left,right \
+  foreign_objects.yaml+ideal --voxel-size 0.02 --servo 2 --no-pictures -o ../evaluation >/dev/null 2>&1)
 keep evaluation evaluate_planning
 step "evaluate shadow-filters"
-(cd workcells && vantage evaluate shadow-filters wall.yaml:side two_pillars.yaml -o ../evaluation \
-  >/dev/null 2>&1)
+(cd workcells && vantage evaluate shadow-filters wall.yaml:side two_pillars.yaml --voxel-size 0.01 --json >../filters.json)
+mkdir evaluation && mv filters.json evaluation
 keep evaluation evaluate_shadow_filters
 if [[ -n $data ]]; then
   for scene in osd_learn0 osd_learn12 osd_learn33; do
