@@ -67,7 +67,6 @@ class QueryContext {
 
 #endif
 
-
 /// Embree's device: what its scenes and geometries are made with.
 class EmbreeDevice {
  public:
