@@ -7,7 +7,7 @@
 #include <new>
 
 #include "cli/command.hpp"
-#include "vantage/raycore/instruction_set.hpp"
+#include "vantage/raycore/detail/instruction_set.hpp"
 #include "version.hpp"
 
 namespace {

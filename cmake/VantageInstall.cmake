@@ -14,7 +14,9 @@ install(TARGETS ${modules} EXPORT vantageTargets
         LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}")
 foreach(module IN LISTS modules)
   get_target_property(source_dir ${module} SOURCE_DIR)
-  install(DIRECTORY "${source_dir}/include/vantage" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}")
+  # detail/ is for the modules among themselves.
+  install(DIRECTORY "${source_dir}/include/vantage" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}"
+          PATTERN detail EXCLUDE)
 endforeach()
 install(DIRECTORY assets/schema assets/workcells assets/knowledge DESTINATION "${CMAKE_INSTALL_DATADIR}/vantage")
 install(FILES LICENSE DESTINATION "${CMAKE_INSTALL_DOCDIR}")

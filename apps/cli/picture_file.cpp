@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "vantage/raycore/detail/file.hpp"
 #include "vantage/raycore/error.hpp"
-#include "vantage/raycore/file.hpp"
 #include "vantage/raycore/image_io.hpp"
 
 namespace vantage {

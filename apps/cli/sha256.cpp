@@ -6,7 +6,7 @@
 #include <array>
 #include <stdexcept>
 
-#include "vantage/raycore/file.hpp"
+#include "vantage/raycore/detail/file.hpp"
 
 namespace vantage {
 

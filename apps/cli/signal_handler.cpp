@@ -15,13 +15,13 @@ void handle(int signal) {
 
 }  // namespace
 
-Interrupt::Interrupt(std::vector<StopToken> tokens) {
+SignalHandler::SignalHandler(std::vector<StopToken> tokens) {
   watched = std::move(tokens);
   std::signal(SIGINT, handle);
   std::signal(SIGTERM, handle);
 }
 
-Interrupt::~Interrupt() {
+SignalHandler::~SignalHandler() {
   std::signal(SIGINT, SIG_DFL);
   std::signal(SIGTERM, SIG_DFL);
   watched.clear();

@@ -8,12 +8,12 @@ namespace vantage {
 
 /// While it lives, the first Ctrl-C (or SIGTERM) cancels the tokens; a second one ends the process
 /// as usual. One at a time.
-class Interrupt {
+class SignalHandler {
  public:
-  explicit Interrupt(std::vector<StopToken> tokens);
-  ~Interrupt();
-  Interrupt(const Interrupt&) = delete;
-  Interrupt& operator=(const Interrupt&) = delete;
+  explicit SignalHandler(std::vector<StopToken> tokens);
+  ~SignalHandler();
+  SignalHandler(const SignalHandler&) = delete;
+  SignalHandler& operator=(const SignalHandler&) = delete;
 };
 
 }  // namespace vantage

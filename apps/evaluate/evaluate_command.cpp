@@ -73,32 +73,32 @@ std::string summary_of_true_gain(const Json& gain) {
 
 namespace {
 
-struct GainArguments {
+struct GainOptions {
   std::filesystem::path workcell, plan;
   std::optional<double> voxel_size_m;
   bool json = false;
 };
 
-ExitCode evaluate_gain(const GainArguments& arguments) {
-  const auto gain = true_gain(arguments.workcell, arguments.plan, arguments.voxel_size_m);
-  std::cout << (arguments.json ? gain.dump(1) + "\n" : summary_of_true_gain(gain)) << std::flush;
+ExitCode evaluate_gain(const GainOptions& options) {
+  const auto gain = true_gain(options.workcell, options.plan, options.voxel_size_m);
+  std::cout << (options.json ? gain.dump(1) + "\n" : summary_of_true_gain(gain)) << std::flush;
   return ExitCode::ok;
 }
 
 void add_gain(CLI::App& evaluate, Action& action) {
   CLI::App* verb = evaluate.add_subcommand(
       "gain", "What a plan's best view really reveals of a simulated cell, beside its promise");
-  const auto arguments = std::make_shared<GainArguments>();
-  verb->add_option("workcell", arguments->workcell,
+  const auto options = std::make_shared<GainOptions>();
+  verb->add_option("workcell", options->workcell,
                    "The simulated dataset's workcell.yaml: what truly stands there")
       ->required();
-  verb->add_option("plan", arguments->plan, "plan.json")->required();
-  verb->add_option("--voxel-size", arguments->voxel_size_m,
+  verb->add_option("plan", options->plan, "plan.json")->required();
+  verb->add_option("--voxel-size", options->voxel_size_m,
                    "Edge of a voxel of the truth, metres; the plan's without it")
       ->check(positive_number());
-  verb->add_flag("--json", arguments->json, "Print JSON instead of a summary");
+  verb->add_flag("--json", options->json, "Print JSON instead of a summary");
   verb->parse_complete_callback(
-      [&action, arguments] { action = [=] { return evaluate_gain(*arguments); }; });
+      [&action, options] { action = [=] { return evaluate_gain(*options); }; });
 }
 
 }  // namespace

@@ -48,20 +48,20 @@ PlanRequest demo_request() {
 
 namespace {
 
-struct DemoArguments {
+struct DemoOptions {
   CommonOptions common;
   double voxel_size_m = demo_request().voxel_size_m;
 };
 
-ExitCode demo(const DemoArguments& arguments) {
+ExitCode demo(const DemoOptions& options) {
   const auto start = StopToken::Clock::now();
-  const RunOptions run = arguments.common.run(start);
-  const Interrupt interrupt({run.stop, run.drawing});
+  const RunOptions run = options.common.run(start);
+  const SignalHandler interrupt({run.stop, run.drawing});
   PlanRequest request = demo_request();
-  request.voxel_size_m = arguments.voxel_size_m;
+  request.voxel_size_m = options.voxel_size_m;
   PlanRecord record;
   record.config = {{"scene", "demo: a wall of cubes"}};
-  OutputOptions output = arguments.common.output;
+  OutputOptions output = options.common.output;
   output.pictures = true;
   return run_plan(demo_world(), request, record, output, run, start);
 }
@@ -71,14 +71,13 @@ ExitCode demo(const DemoArguments& arguments) {
 void add_demo_command(CLI::App& app, Action& action) {
   CLI::App* verb =
       app.add_subcommand("demo", "Plan the next view of a bundled wall of cubes, with pictures");
-  const auto arguments = std::make_shared<DemoArguments>();
-  arguments->common.output.folder = "out/demo";
-  arguments->common.add_to(*verb);
+  const auto options = std::make_shared<DemoOptions>();
+  options->common.output.folder = "out/demo";
+  options->common.add_to(*verb);
   verb->get_option("--output")->capture_default_str();
-  verb->add_option("--voxel-size", arguments->voxel_size_m, "Edge of a voxel, metres")
+  verb->add_option("--voxel-size", options->voxel_size_m, "Edge of a voxel, metres")
       ->capture_default_str();
-  verb->parse_complete_callback(
-      [&action, arguments] { action = [=] { return demo(*arguments); }; });
+  verb->parse_complete_callback([&action, options] { action = [=] { return demo(*options); }; });
 }
 
 }  // namespace vantage

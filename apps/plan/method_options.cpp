@@ -9,24 +9,24 @@
 namespace vantage {
 namespace {
 
-void add_travel_options(CLI::App& verb, MethodArguments& arguments) {
-  CLI::Option* from = verb.add_option("--from", arguments.from_m,
+void add_travel_options(CLI::App& verb, ViewOptions& options) {
+  CLI::Option* from = verb.add_option("--from", options.from_m,
                                       "X Y Z: where the camera is now, metres, world frame")
                           ->expected(3);
-  verb.add_option("--travel-weight", arguments.travel_weight_per_m,
+  verb.add_option("--travel-weight", options.travel_weight_per_m,
                   "Cost of the journey: a score counts exp(-W d) times at a distance of d metres")
       ->check(number_from_zero())
       ->needs(from);
 }
 
-void add_view_count_options(CLI::App& verb, ViewCount& views) {
+void add_view_count_options(CLI::App& verb, ViewSequenceOptions& views) {
   verb.add_option("--views", views.most, "Plan so many views, each for what those before it left")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
-  verb.add_option("--least-gain", views.least_gain_m3,
+  verb.add_option("--least-gain", views.min_gain_m3,
                   "Stop before a further view that reveals less than this, m³")
       ->check(number_from_zero());
-  verb.add_option("--least-gain-share", views.least_gain_share, "The same as a share of all shadow")
+  verb.add_option("--least-gain-share", views.min_gain_share, "The same as a share of all shadow")
       ->check(number_between(0.0, 1.0));
 }
 
@@ -66,15 +66,15 @@ void add_mesh_options(CLI::App& verb, MeshOptions& mesh) {
 
 namespace {
 
-void add_weight_options(CLI::App& verb, MethodArguments& arguments) {
+void add_weight_options(CLI::App& verb, ViewOptions& options) {
   static const std::map<std::string, MeshWeight> weights{{"depth", MeshWeight::depth},
                                                          {"volume", MeshWeight::volume}};
-  verb.add_option("--depth-power", arguments.depth_power,
+  verb.add_option("--depth-power", options.depth_power,
                   "Of --method shadow and mesh: pixels count depth^P; 0, 3 and 6 are the thesis' "
                   "D0, D3, D6")
       ->check(number_between(0.0, 16.0))
-      ->default_str(fmt::format("{:g}", arguments.method.depth_power));
-  verb.add_option("--mesh-weight", arguments.mesh_weight,
+      ->default_str(fmt::format("{:g}", options.method.depth_power));
+  verb.add_option("--mesh-weight", options.mesh_weight,
                   "Of --method mesh: what unseen pixels count; volume: the volume behind them, by "
                   "which views from different distances compare; depth: depth^P, as in the thesis")
       ->transform(CLI::CheckedTransformer(weights))
@@ -83,7 +83,7 @@ void add_weight_options(CLI::App& verb, MethodArguments& arguments) {
 
 }  // namespace
 
-void MethodArguments::add_to(CLI::App& verb) {
+void ViewOptions::add_to(CLI::App& verb) {
   verb.add_option(
           "--method", method.name,
           "What a view is worth; voxel: the volume that it would reveal; shadow: the shadow "
@@ -113,7 +113,7 @@ void MethodArguments::add_to(CLI::App& verb) {
   add_view_count_options(verb, views);
 }
 
-void MethodArguments::apply(PlanRequest& request) const {
+void ViewOptions::apply(PlanRequest& request) const {
   request.method = method;
   if (depth_power) request.method.depth_power = *depth_power;
   request.method.mesh.weight =

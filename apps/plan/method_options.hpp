@@ -10,7 +10,7 @@
 namespace vantage {
 
 /// How views are scored, refined and chosen: what the command line says of it.
-struct MethodArguments {
+struct ViewOptions {
   MethodOptions method;
   std::optional<double> depth_power;      ///< not given: the default
   std::optional<MeshWeight> mesh_weight;  ///< not given: by depth if its power is
@@ -20,7 +20,7 @@ struct MethodArguments {
   int ranked = SearchOptions().ranked;
   double travel_weight_per_m = 0;
   std::vector<double> from_m;  ///< x y z; empty: not given
-  ViewCount views;
+  ViewSequenceOptions views;
 
   void add_to(CLI::App& verb);
 

@@ -14,16 +14,16 @@
 namespace vantage {
 namespace {
 
-struct PlanArguments {
+struct PlanCommandOptions {
   PlanOptions plan;
   CommonOptions common;
-  MethodArguments method;
+  ViewOptions method;
 };
 
-void add_planning_options(CLI::App& verb, PlanArguments& arguments) {
-  arguments.plan.candidates.add_to(verb);
-  arguments.method.add_to(verb);
-  OutputOptions& output = arguments.common.output;
+void add_planning_options(CLI::App& verb, PlanCommandOptions& options) {
+  options.plan.candidates.add_to(verb);
+  options.method.add_to(verb);
+  OutputOptions& output = options.common.output;
   verb.add_option("--explain", output.explain,
                   "Explain these candidates, e.g. 17,3: what makes their scores, which shadow they "
                   "reveal, and why they lost")
@@ -32,33 +32,32 @@ void add_planning_options(CLI::App& verb, PlanArguments& arguments) {
       ->needs(verb.get_option("--output"));
 }
 
-ExitCode plan(const PlanArguments& arguments) {
+ExitCode plan(const PlanCommandOptions& options) {
   const auto start = StopToken::Clock::now();
-  const RunOptions run = arguments.common.run(start);
-  const Interrupt interrupt({run.stop, run.drawing});
-  PlanInput input = Workers(arguments.common.threads).execute([&] {
-    return load_plan_input(arguments.plan, run.stop);
+  const RunOptions run = options.common.run(start);
+  const SignalHandler interrupt({run.stop, run.drawing});
+  PlanInput input = Workers(options.common.threads).execute([&] {
+    return load_plan_input(options.plan, run.stop);
   });
-  arguments.method.apply(input.request);
+  options.method.apply(input.request);
   for (const std::string& warning : input.warnings) spdlog::warn("{}", warning);
-  input.record.config["deadline_ms"] = arguments.common.deadline_ms
-                                           ? nlohmann::ordered_json(*arguments.common.deadline_ms)
+  input.record.config["deadline_ms"] = options.common.deadline_ms
+                                           ? nlohmann::ordered_json(*options.common.deadline_ms)
                                            : nlohmann::ordered_json();
-  return run_plan(input.world, input.request, input.record, arguments.common.output, run, start);
+  return run_plan(input.world, input.request, input.record, options.common.output, run, start);
 }
 
 }  // namespace
 
 void add_plan_command(CLI::App& app, Action& action) {
   CLI::App* verb = app.add_subcommand("plan", "Find the next view for a recording");
-  const auto arguments = std::make_shared<PlanArguments>();
-  arguments->common.add_to(*verb);
-  add_input_options(*verb, arguments->plan);
-  add_object_options(*verb, arguments->plan.objects);
-  add_planning_options(*verb, *arguments);
-  add_volume_options(*verb, arguments->plan);
-  verb->parse_complete_callback(
-      [&action, arguments] { action = [=] { return plan(*arguments); }; });
+  const auto options = std::make_shared<PlanCommandOptions>();
+  options->common.add_to(*verb);
+  add_input_options(*verb, options->plan);
+  add_object_options(*verb, options->plan.objects);
+  add_planning_options(*verb, *options);
+  add_volume_options(*verb, options->plan);
+  verb->parse_complete_callback([&action, options] { action = [=] { return plan(*options); }; });
 }
 
 }  // namespace vantage

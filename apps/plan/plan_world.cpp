@@ -27,7 +27,7 @@ std::string usual_source(const BopScene& scene, const Workcell& workcell) {
   return workcell.known_objects.empty() && recognisable && pictures ? "pnp" : "given";
 }
 
-Observer observer(const BopImage& image, const Pose& T_world_cam) {
+DepthCamera observer(const BopImage& image, const Pose& T_world_cam) {
   return {std::to_string(image.id),
           PinholeCamera(image.intrinsics, T_world_cam, image.range, image.place), image.depth};
 }
@@ -40,9 +40,9 @@ void use_given(const BopScene& scene, const Workcell& workcell, PlanWorld& plan)
 }
 
 void use_reconstruction(const BopScene& scene, const Workcell& workcell,
-                        const ReconstructionSettings& settings, const StopToken& stop,
+                        const SceneReconstructionOptions& options, const StopToken& stop,
                         PlanWorld& plan) {
-  const SceneReconstruction found = reconstruct_scene(scene, workcell, settings, stop);
+  const SceneReconstruction found = reconstruct_scene(scene, workcell, options, stop);
   std::vector<std::string> taken;
   for (const PlacedObject& object : workcell.static_structures) taken.push_back(object.name);
   plan.world.objects = known_objects(found.result, taken);
@@ -89,16 +89,16 @@ void use_file(const BopScene& scene, const Workcell& workcell, const fs::path& f
 PlanWorld load_plan_world(const fs::path& dataset, const std::vector<int>& images,
                           const Workcell& workcell, const ObjectSource& source,
                           const StopToken& stop) {
-  ReconstructionSettings settings = settings_of(source.how);
-  const BopScene scene = load_dataset(dataset, workcell, images, settings.observe);
+  SceneReconstructionOptions options = options_of(source.how);
+  const BopScene scene = load_dataset(dataset, workcell, images, options.observe);
   PlanWorld plan{{}, source.objects, scene.files, {}, scene.images.front().intrinsics};
   if (plan.objects.empty()) plan.objects = usual_source(scene, workcell);
   plan.world.static_structures = known(workcell.static_structures);
   if (plan.objects == "given") {
     use_given(scene, workcell, plan);
   } else if (is_method(plan.objects)) {
-    settings.method = reconstruction_method_of(plan.objects);
-    use_reconstruction(scene, workcell, settings, stop, plan);
+    options.method = reconstruction_method_of(plan.objects);
+    use_reconstruction(scene, workcell, options, stop, plan);
   } else {
     use_file(scene, workcell, plan.objects, plan);
   }

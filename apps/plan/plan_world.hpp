@@ -17,7 +17,7 @@ struct ObjectSource {
   /// given if the workcell has any, else found by multi-view PnP if there is something to find them
   /// by.
   std::string objects;
-  ReconstructArguments how = {};  ///< its method is not used
+  ReconstructCommandOptions how = {};  ///< its method is not used
 };
 
 /// The world to plan in, and where it came from.

@@ -10,13 +10,13 @@
 #include "cli/workers.hpp"
 #include "plan/report/plan_pictures.hpp"
 #include "plan/report/plan_summary.hpp"
+#include "vantage/raycore/detail/file.hpp"
 #include "vantage/raycore/error.hpp"
-#include "vantage/raycore/file.hpp"
 #include "vantage/raycore/mesh_io.hpp"
-#include "vantage/volume/carve.hpp"
+#include "vantage/volume/advanced/carve.hpp"
+#include "vantage/volume/advanced/smooth_surface.hpp"
+#include "vantage/volume/advanced/voxel_surface.hpp"
 #include "vantage/volume/grid_files.hpp"
-#include "vantage/volume/smooth_surface.hpp"
-#include "vantage/volume/voxel_surface.hpp"
 
 namespace vantage {
 namespace {

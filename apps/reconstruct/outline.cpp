@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kSharp = 0.87;      // cosine between the normals of faces that meet in an edge
 constexpr double kPiece_px = 6;      // how long a piece may get
-constexpr int kMostPieces = 400;     // of one edge
+constexpr int kMaxPieces = 400;      // of one edge
 constexpr double kInFront_m = 2e-3;  // how far a point is drawn towards the camera before it is
                                      // asked whether something hides it
 constexpr double kNearest_m = 1e-3;
@@ -72,7 +72,7 @@ std::vector<OutlinePiece> outline(const std::vector<MeshEdge>& edges, const Pose
     const auto from = pixel_of(T_cam_object * edge.from, lens);
     const auto to = pixel_of(T_cam_object * edge.to, lens);
     if (!from || !to) continue;
-    const int count = std::clamp(int(std::ceil((*to - *from).norm() / kPiece_px)), 1, kMostPieces);
+    const int count = std::clamp(int(std::ceil((*to - *from).norm() / kPiece_px)), 1, kMaxPieces);
     Eigen::Vector2d last = *from;
     for (int i = 1; i <= count; ++i) {
       const auto along = [&](double s) -> Eigen::Vector3d {

@@ -7,7 +7,7 @@
 #include <set>
 
 #include "reconstruct/overlay_canvas.hpp"
-#include "vantage/raycore/scene_builder.hpp"
+#include "vantage/raycore/advanced/scene_builder.hpp"
 #include "vantage/reconstruction/color_image.hpp"
 
 namespace vantage {

@@ -13,7 +13,7 @@
 #include "reconstruct/overlay_picture.hpp"
 #include "reconstruct/reconstruct_options.hpp"
 #include "reconstruct/world_json.hpp"
-#include "vantage/raycore/file.hpp"
+#include "vantage/raycore/detail/file.hpp"
 #include "vantage/raycore/image_io.hpp"
 
 namespace vantage {
@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 struct ReconstructCommand {
   fs::path dataset, workcell, folder;
   std::vector<int> images;
-  ReconstructArguments how;
+  ReconstructCommandOptions how;
   bool json = false, no_pictures = false;
   int threads = 0;
 };
@@ -65,17 +65,17 @@ WorldRecord record_of(const ReconstructCommand& command, const BopScene& scene,
 ExitCode reconstruct_command(const ReconstructCommand& command) {
   const auto start = StopToken::Clock::now();
   const StopToken stop;
-  const Interrupt interrupt({stop});
+  const SignalHandler interrupt({stop});
   Workers workers(command.threads);
-  const ReconstructionSettings settings = settings_of(command.how);
+  const SceneReconstructionOptions options = options_of(command.how);
   const Workcell workcell = load_workcell(command.workcell);
-  const BopScene scene = load_dataset(command.dataset, workcell, command.images, settings.observe);
+  const BopScene scene = load_dataset(command.dataset, workcell, command.images, options.observe);
   const double load_s = seconds_since(start);
 
   const SceneReconstruction reconstruction = workers.execute([&] {
     const ProgressLine progress("reconstructing", stop);
     stop.expect(scene.images.size());
-    return reconstruct_scene(scene, workcell, settings, stop);
+    return reconstruct_scene(scene, workcell, options, stop);
   });
   if (stop.stop_requested()) return ExitCode::cancelled;
   warn_of(scene, reconstruction);

@@ -4,7 +4,7 @@
 
 namespace vantage {
 
-void ReconstructArguments::add_to(CLI::App& verb) {
+void ReconstructCommandOptions::add_to(CLI::App& verb) {
   verb.add_option("--cameras", cameras,
                   "Where cameras are: by the dataset's poses, by the board's markers, or auto: by "
                   "the board where the dataset has no pose")
@@ -27,8 +27,8 @@ void ReconstructArguments::add_to(CLI::App& verb) {
                 "Leave out what one camera sees by one marker, which may be tilted two ways");
 }
 
-ReconstructionSettings settings_of(const ReconstructArguments& arguments) {
-  ReconstructionSettings settings;
+SceneReconstructionOptions options_of(const ReconstructCommandOptions& arguments) {
+  SceneReconstructionOptions settings;
   settings.method = reconstruction_method_of(arguments.method);
   settings.observe.calibrations = arguments.calibrations;
   settings.observe.observations = arguments.features;
@@ -40,7 +40,7 @@ ReconstructionSettings settings_of(const ReconstructArguments& arguments) {
   return settings;
 }
 
-nlohmann::ordered_json config_of(const ReconstructArguments& arguments) {
+nlohmann::ordered_json config_of(const ReconstructCommandOptions& arguments) {
   const auto names = [](const std::vector<std::filesystem::path>& files) {
     nlohmann::ordered_json list = nlohmann::ordered_json::array();
     for (const auto& file : files) list.push_back(file.string());

@@ -11,7 +11,7 @@
 namespace vantage {
 
 /// What the command line says of reconstructing; verbs that reconstruct share it.
-struct ReconstructArguments {
+struct ReconstructCommandOptions {
   std::string method = "pnp";
   std::string cameras = "auto";
   std::vector<std::filesystem::path> calibrations, features;
@@ -23,9 +23,9 @@ struct ReconstructArguments {
 };
 
 /// @throws Error bad_input for a method or a camera source that does not exist.
-ReconstructionSettings settings_of(const ReconstructArguments& arguments);
+SceneReconstructionOptions options_of(const ReconstructCommandOptions& options);
 
 /// For world.json's `config`.
-nlohmann::ordered_json config_of(const ReconstructArguments& arguments);
+nlohmann::ordered_json config_of(const ReconstructCommandOptions& options);
 
 }  // namespace vantage

@@ -62,7 +62,7 @@ Reconstruction reconstruct(ReconstructionMethod method, std::span<const CameraVi
 }
 
 SceneReconstruction reconstruct_scene(const BopScene& scene, const Workcell& workcell,
-                                      const ReconstructionSettings& settings,
+                                      const SceneReconstructionOptions& settings,
                                       const StopToken& stop) {
   check_knowledge(workcell);
   SceneReconstruction all{observe(scene, workcell, settings.observe, stop), {}, 0};

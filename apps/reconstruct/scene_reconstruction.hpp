@@ -18,7 +18,7 @@ inline const std::vector<std::string> kReconstructionMethods = {"svd", "pnp", "v
 ReconstructionMethod reconstruction_method_of(const std::string& name);
 
 /// How to reconstruct.
-struct ReconstructionSettings {
+struct SceneReconstructionOptions {
   ReconstructionMethod method = ReconstructionMethod::pnp;
   ObserveOptions observe = {};
   ReconstructOptions options = {};
@@ -43,7 +43,7 @@ void check_cameras(const BopScene& scene, const ObservedScene& observed);
 /// @throws Error bad_input as `observe` does; if no camera could be located, with each one's
 /// reason; and for a workcell whose knowledge base has no type with features.
 SceneReconstruction reconstruct_scene(const BopScene& scene, const Workcell& workcell,
-                                      const ReconstructionSettings& settings,
+                                      const SceneReconstructionOptions& settings,
                                       const StopToken& stop = {});
 
 }  // namespace vantage

@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "cli/units.hpp"
-#include "vantage/raycore/file.hpp"
+#include "vantage/raycore/detail/file.hpp"
 #include "vantage/raycore/image_io.hpp"
 #include "workcell/object_appearance.hpp"
 

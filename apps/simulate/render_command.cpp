@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct RenderArguments {
+struct RenderOptions {
   std::vector<fs::path> workcells;
   fs::path picture;
   std::string camera;
@@ -54,15 +54,15 @@ const CellCamera& chosen_camera(const Subject& subject, const std::string& name)
 }
 
 std::optional<ColorImage> photograph(const SimulatedCell& cell, const CellCamera& camera,
-                                     const RenderArguments& arguments, const StopToken& stop) {
-  return simulate_color(cell.scene, {}, camera.camera, {.samples_per_pixel = arguments.samples}, 0,
+                                     const RenderOptions& options, const StopToken& stop) {
+  return simulate_color(cell.scene, {}, camera.camera, {.samples_per_pixel = options.samples}, 0,
                         stop);
 }
 
-std::optional<ColorImage> sheet(const RenderArguments& arguments, const StopToken& stop) {
+std::optional<ColorImage> sheet(const RenderOptions& options, const StopToken& stop) {
   std::vector<Subject> subjects;
   std::uint64_t total = 0;
-  for (const fs::path& file : arguments.workcells) {
+  for (const fs::path& file : options.workcells) {
     subjects.push_back(load_subject(file));
     total += subjects.back().workcell.cameras.size();
   }
@@ -71,7 +71,7 @@ std::optional<ColorImage> sheet(const RenderArguments& arguments, const StopToke
   for (const Subject& subject : subjects) {
     const SimulatedCell cell = simulated_cell(subject.workcell);
     for (const CellCamera& camera : subject.workcell.cameras) {
-      auto image = photograph(cell, camera, arguments, stop);
+      auto image = photograph(cell, camera, options, stop);
       if (!image) return std::nullopt;
       pictures.push_back({subject.name, camera.name, std::move(*image)});
       stop.advance(1);
@@ -80,28 +80,28 @@ std::optional<ColorImage> sheet(const RenderArguments& arguments, const StopToke
   return contact_sheet(pictures);
 }
 
-std::optional<ColorImage> single(const RenderArguments& arguments, const StopToken& stop) {
-  if (arguments.workcells.size() > 1) {
+std::optional<ColorImage> single(const RenderOptions& options, const StopToken& stop) {
+  if (options.workcells.size() > 1) {
     throw bad_input("vantage render", fmt::format("found {} workcells; expected one, or "
                                                   "--contact-sheet for all of them in one picture",
-                                                  arguments.workcells.size()));
+                                                  options.workcells.size()));
   }
-  const Subject subject = load_subject(arguments.workcells.front());
-  return photograph(simulated_cell(subject.workcell), chosen_camera(subject, arguments.camera),
-                    arguments, stop);
+  const Subject subject = load_subject(options.workcells.front());
+  return photograph(simulated_cell(subject.workcell), chosen_camera(subject, options.camera),
+                    options, stop);
 }
 
-ExitCode render(const RenderArguments& arguments) {
+ExitCode render(const RenderOptions& options) {
   const StopToken stop;
-  const Interrupt interrupt({stop});
-  Workers workers(arguments.threads);
+  const SignalHandler interrupt({stop});
+  Workers workers(options.threads);
   const std::optional<ColorImage> image = workers.execute([&] {
     const ProgressLine progress("rendering", stop);
-    return arguments.contact_sheet ? sheet(arguments, stop) : single(arguments, stop);
+    return options.contact_sheet ? sheet(options, stop) : single(options, stop);
   });
   if (!image) return ExitCode::cancelled;
-  write_picture(arguments.picture, *image);
-  spdlog::info("wrote {}", arguments.picture.string());
+  write_picture(options.picture, *image);
+  spdlog::info("wrote {}", options.picture.string());
   return ExitCode::ok;
 }
 
@@ -110,21 +110,20 @@ ExitCode render(const RenderArguments& arguments) {
 void add_render_command(CLI::App& app, Action& action) {
   CLI::App* verb =
       app.add_subcommand("render", "Photograph workcells: one camera's view, or a contact sheet");
-  const auto arguments = std::make_shared<RenderArguments>();
-  verb->add_option("workcells", arguments->workcells, "Workcell files (YAML) with cameras")
+  const auto options = std::make_shared<RenderOptions>();
+  verb->add_option("workcells", options->workcells, "Workcell files (YAML) with cameras")
       ->required();
-  verb->add_option("-o,--output", arguments->picture, "The picture: .png or .jpg")->required();
-  verb->add_option("--camera", arguments->camera, "The camera to look through; the first without");
-  verb->add_flag("--contact-sheet", arguments->contact_sheet,
+  verb->add_option("-o,--output", options->picture, "The picture: .png or .jpg")->required();
+  verb->add_option("--camera", options->camera, "The camera to look through; the first without");
+  verb->add_flag("--contact-sheet", options->contact_sheet,
                  "All cameras of all workcells on one picture")
       ->excludes("--camera");
-  verb->add_option("--samples", arguments->samples, "Rays through each pixel")
+  verb->add_option("--samples", options->samples, "Rays through each pixel")
       ->check(CLI::Range(1, 4096))
       ->capture_default_str();
-  verb->add_option("--threads", arguments->threads, "Threads to use (0: all)")
+  verb->add_option("--threads", options->threads, "Threads to use (0: all)")
       ->check(CLI::Range(0, 1024));
-  verb->parse_complete_callback(
-      [&action, arguments] { action = [=] { return render(*arguments); }; });
+  verb->parse_complete_callback([&action, options] { action = [=] { return render(*options); }; });
 }
 
 }  // namespace vantage

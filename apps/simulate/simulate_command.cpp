@@ -18,9 +18,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct SimulateArguments {
+struct SimulateOptions {
   fs::path workcell, folder;
-  SimulationSettings settings;
+  SimulationOptions settings;
   bool ideal_depth = false, no_second_imager = false, no_projector = false;
   std::optional<double> noise_px, max_incidence_deg;
   std::vector<double> distortion;
@@ -28,8 +28,8 @@ struct SimulateArguments {
   int threads = 0;
 };
 
-void add_random_options(CLI::App& verb, SimulateArguments& a) {
-  SimulationSettings& s = a.settings;
+void add_random_options(CLI::App& verb, SimulateOptions& a) {
+  SimulationOptions& s = a.settings;
   verb.add_option("--seed", s.seed, "Of the noise and of random objects; another seed, others");
   verb.add_option("--objects", s.objects,
                   "Lay this many objects on the board at random, instead of the workcell's "
@@ -39,7 +39,7 @@ void add_random_options(CLI::App& verb, SimulateArguments& a) {
       ->delimiter(',');
 }
 
-void add_color_options(CLI::App& verb, SimulateArguments& a) {
+void add_color_options(CLI::App& verb, SimulateOptions& a) {
   ColorSensor& color = a.settings.recording.color;
   verb.add_option("--samples", color.samples_per_pixel, "Rays through each pixel of a colour image")
       ->check(CLI::Range(1, 4096))
@@ -56,7 +56,7 @@ void add_color_options(CLI::App& verb, SimulateArguments& a) {
       ->check(number_between(0.0, 1.0));
 }
 
-void add_depth_options(CLI::App& verb, SimulateArguments& a) {
+void add_depth_options(CLI::App& verb, SimulateOptions& a) {
   StereoSensor& depth = a.settings.recording.depth;
   verb.add_option(
       "--depth-noise-px", a.noise_px,
@@ -82,7 +82,7 @@ void add_depth_options(CLI::App& verb, SimulateArguments& a) {
       ->capture_default_str();
 }
 
-void add_depth_format_options(CLI::App& verb, SimulateArguments& a) {
+void add_depth_format_options(CLI::App& verb, SimulateOptions& a) {
   CLI::Option* ideal = verb.add_flag("--ideal-depth", a.ideal_depth,
                                      "Measure every surface exactly: none of the effects above");
   for (const char* effect : {"--depth-noise-px", "--disparity-step-px", "--max-disparity-px",
@@ -96,7 +96,7 @@ void add_depth_format_options(CLI::App& verb, SimulateArguments& a) {
 }
 
 /// The command line's flags on top of the workcell's sensor.
-RecordingOptions recording_of(const SimulateArguments& a, const Workcell& workcell) {
+RecordingOptions recording_of(const SimulateOptions& a, const Workcell& workcell) {
   RecordingOptions recording = a.settings.recording;
   StereoSensor& depth = recording.depth;
   depth.noise = workcell.volume.noise;
@@ -114,28 +114,28 @@ RecordingOptions recording_of(const SimulateArguments& a, const Workcell& workce
   return recording;
 }
 
-ExitCode simulate(const SimulateArguments& arguments) {
+ExitCode simulate(const SimulateOptions& options) {
   const StopToken stop;
-  const Interrupt interrupt({stop});
-  Workers workers(arguments.threads);
+  const SignalHandler interrupt({stop});
+  Workers workers(options.threads);
 
-  Workcell workcell = load_workcell(arguments.workcell);
-  SimulationSettings settings = arguments.settings;
-  settings.recording = recording_of(arguments, workcell);
+  Workcell workcell = load_workcell(options.workcell);
+  SimulationOptions settings = options.settings;
+  settings.recording = recording_of(options, workcell);
   prepare_objects(workcell, settings);
   check_recording(workcell, settings.recording);
-  claim_folder(arguments.folder);
+  claim_folder(options.folder);
   const bool complete = workers.execute([&] {
     const ProgressLine progress("recording", stop);
     const SimulatedCell cell = simulated_cell(workcell);
     const auto json =
-        write_simulation_record(arguments.workcell, workcell, cell, settings, arguments.folder);
-    if (!record(workcell, cell, settings.recording, arguments.folder, stop)) return false;
-    std::cout << (arguments.json ? json.dump(1) + "\n" : summary_of_simulation(json)) << std::flush;
+        write_simulation_record(options.workcell, workcell, cell, settings, options.folder);
+    if (!record(workcell, cell, settings.recording, options.folder, stop)) return false;
+    std::cout << (options.json ? json.dump(1) + "\n" : summary_of_simulation(json)) << std::flush;
     return true;
   });
   if (!complete) return ExitCode::cancelled;
-  spdlog::info("wrote {}", arguments.folder.string());
+  spdlog::info("wrote {}", options.folder.string());
   return ExitCode::ok;
 }
 
@@ -144,21 +144,20 @@ ExitCode simulate(const SimulateArguments& arguments) {
 void add_simulate_command(CLI::App& app, Action& action) {
   CLI::App* verb = app.add_subcommand(
       "simulate", "Record a workcell with simulated cameras, as a BOP scene folder with its truth");
-  const auto arguments = std::make_shared<SimulateArguments>();
-  verb->add_option("workcell", arguments->workcell,
+  const auto options = std::make_shared<SimulateOptions>();
+  verb->add_option("workcell", options->workcell,
                    "Workcell file (YAML) with cameras and what stands before them")
       ->required();
-  verb->add_option("-o,--output", arguments->folder, "The dataset's folder; it is made")
-      ->required();
-  add_random_options(*verb, *arguments);
-  add_color_options(*verb, *arguments);
-  add_depth_options(*verb, *arguments);
-  add_depth_format_options(*verb, *arguments);
-  verb->add_flag("--json", arguments->json, "Print simulation.json on stdout instead of a summary");
-  verb->add_option("--threads", arguments->threads, "Threads to use (0: all)")
+  verb->add_option("-o,--output", options->folder, "The dataset's folder; it is made")->required();
+  add_random_options(*verb, *options);
+  add_color_options(*verb, *options);
+  add_depth_options(*verb, *options);
+  add_depth_format_options(*verb, *options);
+  verb->add_flag("--json", options->json, "Print simulation.json on stdout instead of a summary");
+  verb->add_option("--threads", options->threads, "Threads to use (0: all)")
       ->check(CLI::Range(0, 1024));
   verb->parse_complete_callback(
-      [&action, arguments] { action = [=] { return simulate(*arguments); }; });
+      [&action, options] { action = [=] { return simulate(*options); }; });
 }
 
 }  // namespace vantage

@@ -9,8 +9,8 @@
 #include "cli/pose_json.hpp"
 #include "cli/units.hpp"
 #include "simulator/scene/sample_hash.hpp"
+#include "vantage/raycore/detail/file.hpp"
 #include "vantage/raycore/error.hpp"
-#include "vantage/raycore/file.hpp"
 #include "vantage/raycore/image_io.hpp"
 #include "vantage/raycore/lens.hpp"
 
@@ -41,8 +41,8 @@ Json truth_json(const Workcell& workcell, const std::vector<BopModel>& models,
   return list;
 }
 
-CountImage to_counts(const DepthImage& depth, double depth_scale_mm) {
-  CountImage counts(depth.width(), depth.height());
+RawDepthImage to_counts(const DepthImage& depth, double depth_scale_mm) {
+  RawDepthImage counts(depth.width(), depth.height());
   for (std::size_t i = 0; i < counts.samples.size(); ++i) {
     const double z = double(depth.metres()[i]);
     if (std::isnan(z)) continue;

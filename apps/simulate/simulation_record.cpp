@@ -6,8 +6,8 @@
 #include "simulate/workcell_export.hpp"
 #include "simulator/scene/ground_truth.hpp"
 #include "vantage/planner/plan.hpp"
+#include "vantage/raycore/detail/file.hpp"
 #include "vantage/raycore/error.hpp"
-#include "vantage/raycore/file.hpp"
 #include "version.hpp"
 
 namespace vantage {
@@ -66,13 +66,13 @@ Json images_json(const Workcell& workcell) {
 
 }  // namespace
 
-void prepare_objects(Workcell& workcell, SimulationSettings& settings) {
-  if (settings.objects || !settings.types.empty()) {
+void prepare_objects(Workcell& workcell, SimulationOptions& options) {
+  if (options.objects || !options.types.empty()) {
     RandomObjects random = workcell.random_objects.value_or(RandomObjects{});
-    if (settings.objects) random.count = *settings.objects;
-    if (!settings.types.empty()) {
+    if (options.objects) random.count = *options.objects;
+    if (!options.types.empty()) {
       random.types.clear();
-      for (const std::string& name : settings.types) {
+      for (const std::string& name : options.types) {
         random.types.push_back(workcell.knowledge->get(name, "--types"));
       }
     } else if (random.types.empty()) {
@@ -83,8 +83,8 @@ void prepare_objects(Workcell& workcell, SimulationSettings& settings) {
     }
     workcell.random_objects = random;
   }
-  if (settings.seed && workcell.random_objects) workcell.random_objects->seed = *settings.seed;
-  settings.recording.seed = settings.seed.value_or(0);
+  if (options.seed && workcell.random_objects) workcell.random_objects->seed = *options.seed;
+  options.recording.seed = options.seed.value_or(0);
   place_random_objects(workcell);
 }
 
@@ -103,9 +103,9 @@ void claim_folder(const fs::path& folder) {
 }
 
 Json write_simulation_record(const fs::path& workcell_file, const Workcell& workcell,
-                             const SimulatedCell& cell, const SimulationSettings& settings,
+                             const SimulatedCell& cell, const SimulationOptions& options,
                              const fs::path& folder) {
-  const RecordingOptions& recording = settings.recording;
+  const RecordingOptions& recording = options.recording;
   const Json record{{"vantage", kVersion},
                     {"workcell", workcell_file.string()},
                     {"seed", recording.seed},

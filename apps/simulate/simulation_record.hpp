@@ -13,7 +13,7 @@
 namespace vantage {
 
 /// What `vantage simulate` was asked for.
-struct SimulationSettings {
+struct SimulationOptions {
   RecordingOptions recording = {};
   std::optional<std::uint64_t> seed = {};  ///< none: the workcell's for objects, 0 for noise
   std::optional<int> objects = {};         ///< how many random ones; none: as the workcell says
@@ -23,7 +23,7 @@ struct SimulationSettings {
 /// Puts the random objects into the workcell, and the seed into the recording's options.
 /// @throws Error bad_input for types that the knowledge base does not have, and as
 /// `place_random_objects` does.
-void prepare_objects(Workcell& workcell, SimulationSettings& settings);
+void prepare_objects(Workcell& workcell, SimulationOptions& settings);
 
 /// Makes the folder for a dataset. One that is there has to be empty, or an earlier simulation:
 /// that is no recording any more from now on, until the new one is complete.
@@ -35,7 +35,7 @@ void claim_folder(const std::filesystem::path& folder);
 /// @returns simulation.json.
 nlohmann::ordered_json write_simulation_record(const std::filesystem::path& workcell_file,
                                                const Workcell& workcell, const SimulatedCell& cell,
-                                               const SimulationSettings& settings,
+                                               const SimulationOptions& settings,
                                                const std::filesystem::path& folder);
 
 /// The same for people.

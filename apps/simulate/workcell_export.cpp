@@ -8,7 +8,7 @@
 #include <string>
 
 #include "documents/yaml_document.hpp"
-#include "vantage/raycore/file.hpp"
+#include "vantage/raycore/detail/file.hpp"
 
 namespace vantage {
 namespace {

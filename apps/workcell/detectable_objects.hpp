@@ -3,8 +3,8 @@
 #include <span>
 #include <vector>
 
+#include "vantage/raycore/advanced/scene.hpp"
 #include "vantage/raycore/camera.hpp"
-#include "vantage/raycore/scene.hpp"
 #include "workcell/workcell_objects.hpp"
 
 namespace vantage {

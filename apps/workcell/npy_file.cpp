@@ -8,8 +8,8 @@
 #include <set>
 #include <string>
 
+#include "vantage/raycore/detail/file.hpp"
 #include "vantage/raycore/error.hpp"
-#include "vantage/raycore/file.hpp"
 
 namespace vantage {
 namespace {
@@ -82,9 +82,9 @@ class Literal {
   }
 
   static std::string shown(std::string_view rest) {
-    constexpr std::size_t kMost = 20;
+    constexpr std::size_t kMax = 20;
     std::string text;
-    for (const char c : rest.substr(0, kMost)) text += c >= ' ' && c <= '~' ? c : '?';
+    for (const char c : rest.substr(0, kMax)) text += c >= ' ' && c <= '~' ? c : '?';
     return fmt::format("\"{}\"", text);
   }
 
@@ -124,7 +124,7 @@ NpyHeader parse_npy_header(std::string_view text, const std::string& where) {
 
 namespace {
 
-constexpr std::int64_t kMostElements = std::int64_t(1) << 30;
+constexpr std::int64_t kMaxElements = std::int64_t(1) << 30;
 constexpr std::size_t kLongestHeader = std::size_t(1) << 16;
 constexpr std::string_view kMagic("\x93NUMPY", 6);
 
@@ -180,18 +180,18 @@ void check_header(const NpyHeader& header, const std::string& where) {
   }
   double elements = 1;
   for (const std::int64_t n : header.shape) elements *= double(n);
-  if (elements <= double(kMostElements)) return;
+  if (elements <= double(kMaxElements)) return;
   throw Error(ErrorCode::out_of_resources, where,
               fmt::format("its shape ({}) has {:.3g} elements; at most {} are handled: use larger "
                           "cells",
-                          fmt::join(header.shape, ", "), elements, kMostElements));
+                          fmt::join(header.shape, ", "), elements, kMaxElements));
 }
 
 }  // namespace
 
 ByteArray3 read_npy_bytes(const std::filesystem::path& file) {
   const std::string where = file.string();
-  std::vector<std::uint8_t> bytes = read_file(file, std::size_t(kMostElements) + kLongestHeader);
+  std::vector<std::uint8_t> bytes = read_file(file, std::size_t(kMaxElements) + kLongestHeader);
   const auto [begin, end] = header_place(bytes, where);
   const NpyHeader header =
       parse_npy_header({reinterpret_cast<const char*>(bytes.data()) + begin, end - begin}, where);

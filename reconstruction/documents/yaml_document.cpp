@@ -11,7 +11,7 @@
 #include <regex>
 #include <vector>
 
-#include "vantage/raycore/file.hpp"
+#include "vantage/raycore/detail/file.hpp"
 
 namespace vantage {
 namespace {

@@ -4,7 +4,7 @@
 #include <cstring>
 #include <limits>
 
-#include "vantage/raycore/multiversion.hpp"
+#include "vantage/raycore/detail/multiversion.hpp"
 
 namespace vantage::bench {
 namespace {
@@ -15,7 +15,7 @@ constexpr float kInfinity = std::numeric_limits<float>::infinity();
 [[gnu::always_inline]] inline void trace_occluded16_body(RTCScene scene, bool coherent,
                                                          RTCRay16* packets, std::size_t size,
                                                          std::uint8_t* result) {
-  detail::QueryContext context(coherent);
+  raycore::detail::QueryContext context(coherent);
   alignas(64) int valid[kWidth];
   std::fill(valid, valid + kWidth, -1);
   for (std::size_t i = 0; i < size; i += kWidth, ++packets) {
@@ -28,7 +28,7 @@ constexpr Multiversion<trace_occluded16_body> trace_occluded16;
 
 [[gnu::always_inline]] inline void trace_intersect16_body(RTCScene scene, bool coherent,
                                                           RTCRayHit16* packets, Hits& hits) {
-  detail::QueryContext context(coherent);
+  raycore::detail::QueryContext context(coherent);
   alignas(64) int valid[kWidth];
   std::fill(valid, valid + kWidth, -1);
   const auto copy = [](auto& to, std::size_t i, const auto* from) {
@@ -59,7 +59,7 @@ RTCRay single(const Workload& work, std::size_t i) {
   ray.dir_x = work.directions.x[i];
   ray.dir_y = work.directions.y[i];
   ray.dir_z = work.directions.z[i];
-  ray.mask = detail::kAllMasks;
+  ray.mask = raycore::detail::kAllMasks;
   return ray;
 }
 
@@ -87,7 +87,7 @@ BareScene::BareScene(const std::vector<TriangleMesh>& meshes, RTCSceneFlags flag
     };
     fill(RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, mesh.vertices());
     fill(RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT3, mesh.triangles());
-    rtcSetGeometryMask(geometry, detail::kAllMasks);
+    rtcSetGeometryMask(geometry, raycore::detail::kAllMasks);
     rtcCommitGeometry(geometry);
     rtcAttachGeometry(scene_, geometry);
     rtcReleaseGeometry(geometry);
@@ -113,7 +113,7 @@ BareRays::BareRays(const Workload& work) : size_(work.size()) {
 }
 
 void BareRays::occluded1(const BareScene& scene, std::uint8_t* result) {
-  detail::QueryContext context(false);
+  raycore::detail::QueryContext context(false);
   for (std::size_t i = 0; i < size_; ++i) {
     rays_[i].tfar = 1;
     context.occluded1(scene.get(), &rays_[i]);
@@ -126,7 +126,7 @@ void BareRays::occluded16(const BareScene& scene, std::uint8_t* result, bool coh
 }
 
 void BareRays::intersect1(const BareScene& scene, Hits& hits) {
-  detail::QueryContext context(false);
+  raycore::detail::QueryContext context(false);
   for (std::size_t i = 0; i < size_; ++i) {
     RTCRayHit& query = hit_rays_[i];
     query.ray.tfar = kInfinity;

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "scene/embree.hpp"
-#include "vantage/raycore/scene.hpp"
+#include "vantage/raycore/advanced/scene.hpp"
 #include "workload.hpp"
 
 namespace vantage::bench {

@@ -17,7 +17,7 @@
 #include "evaluate/planning/planning_cell.hpp"
 #include "vantage/planner/plan.hpp"
 #include "vantage/raycore/error.hpp"
-#include "vantage/volume/classify.hpp"
+#include "vantage/volume/advanced/classify.hpp"
 
 namespace vantage::bench {
 namespace {

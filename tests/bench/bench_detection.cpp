@@ -30,13 +30,13 @@ void opencv_alone(benchmark::State& state) {
   const ColorImage image = photograph("4X4_50");
   const cv::Mat rgb(image.height, image.width, CV_8UC3,
                     const_cast<unsigned char*>(image.samples.data()));
-  const auto dictionary = detail::aruco_dictionary("4X4_50");
+  const auto dictionary = reconstruction::detail::aruco_dictionary("4X4_50");
   std::vector<int> ids;
   for (auto _ : state) {
     cv::Mat grey;
     cv::cvtColor(rgb, grey, cv::COLOR_RGB2GRAY);
     std::vector<std::vector<cv::Point2f>> corners;
-    detail::detect_in_grey(grey, *dictionary, ids, corners);
+    reconstruction::detail::detect_in_grey(grey, *dictionary, ids, corners);
   }
   state.counters["markers"] = double(ids.size());
 }

@@ -1,7 +1,8 @@
 // The same work area, less what four cameras saw (every 8th pixel), in two ways: as a mesh, by
 // CGAL's corefinement, one camera after the other, with exact predicates and inexact constructions;
-// and by rays, as a SeenSpace and its first view of 160×120 pixels. Prints both times and their
-// ratio, of one thread's processor time. CGAL is under the GPL: nothing but this program uses it.
+// and by rays, as a UnobservedSpace and its first view of 160×120 pixels. Prints both times and
+// their ratio, of one thread's processor time. CGAL is under the GPL: nothing but this program uses
+// it.
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polygon_mesh_processing/corefinement.h>
@@ -17,7 +18,7 @@
 #include "reference/random_scene.hpp"
 #include "seen_scene.hpp"
 #include "timing.hpp"
-#include "vantage/raycore/unobserved_space.hpp"
+#include "vantage/raycore/advanced/unobserved_space.hpp"
 
 namespace vantage::bench {
 namespace {
@@ -39,7 +40,7 @@ Surface surface_of(const TriangleMesh& mesh) {
 }
 
 /// What the lattices did not see of the box, by points in it: the two ways must mean the same.
-double unseen_litres(const std::vector<DepthLattice>& lattices) {
+double unseen_litres(const std::vector<VisibilityMesh>& lattices) {
   constexpr int kPoints = 400000;
   const Box box = seen_box();
   test::Random random(1);
@@ -49,7 +50,7 @@ double unseen_litres(const std::vector<DepthLattice>& lattices) {
                             random.uniform(box.min().y(), box.max().y()),
                             random.uniform(box.min().z(), box.max().z()));
     unseen += std::none_of(lattices.begin(), lattices.end(),
-                           [&](const DepthLattice& lattice) { return lattice.sees(p); });
+                           [&](const VisibilityMesh& lattice) { return lattice.sees(p); });
   }
   return 1e3 * box.volume_m3() * unseen / kPoints;
 }
@@ -62,9 +63,10 @@ struct Measured {
 };
 
 Measured measure() {
-  const std::vector<DepthLattice> lattices = seen_lattices(8);
+  const std::vector<VisibilityMesh> lattices = seen_lattices(8);
   std::vector<Surface> seen;
-  for (const DepthLattice& lattice : lattices) seen.push_back(surface_of(visibility_mesh(lattice)));
+  for (const VisibilityMesh& lattice : lattices)
+    seen.push_back(surface_of(visibility_mesh(lattice)));
   const PinholeCamera viewer = seen_viewers()[0];
   std::vector<PixelTile> tiles;
   for (int i = 0; i < 30 * 40; ++i) tiles.push_back({std::uint16_t(i % 40), std::uint16_t(i / 40)});
@@ -83,9 +85,9 @@ Measured measure() {
     std::printf("corefinement %d: %s, %zu faces, %.3f litres are left\n", round + 1,
                 ok ? "done" : "failed", std::size_t(unseen.number_of_faces()),
                 ok ? 1e3 * CGAL::to_double(PMP::volume(unseen)) : 0);
-    std::unique_ptr<SeenSpace> space;
+    std::unique_ptr<UnobservedSpace> space;
     build.push_back(
-        thread_seconds([&] { space = std::make_unique<SeenSpace>(lattices, seen_box()); }));
+        thread_seconds([&] { space = std::make_unique<UnobservedSpace>(lattices, seen_box()); }));
     view.push_back(thread_seconds([&] { space->first_unseen(viewer, tiles, hits); }));
   }
   std::printf("by points: %.3f litres\n", unseen_litres(lattices));

@@ -15,9 +15,9 @@
 #include "bench_planner_scenes.hpp"
 #include "reference/plain_views.hpp"
 #include "timing.hpp"
+#include "vantage/planner/advanced/view_search.hpp"
+#include "vantage/planner/advanced/voxel_scorer.hpp"
 #include "vantage/planner/plan.hpp"
-#include "vantage/planner/view_search.hpp"
-#include "vantage/planner/voxel_scorer.hpp"
 
 namespace vantage::bench {
 namespace {
@@ -138,8 +138,8 @@ Score best_by_bounds(const Fixture& f) {
 }
 
 SearchResult search(const Fixture& f) {
-  const auto checker =
-      std::make_shared<const ViewChecker>(ViewConstraints(), f.scene.scene, f.scene.camera.range());
+  const auto checker = std::make_shared<const ViewValidityChecker>(ViewConstraints(), f.scene.scene,
+                                                                   f.scene.camera.range());
   return ViewSearch(f.scorer, checker, nullptr, f.scene.camera, {}).run(f.candidates);
 }
 

@@ -8,7 +8,7 @@
 #include "bare_embree.hpp"
 #include "bench_planner_scenes.hpp"
 #include "timing.hpp"
-#include "vantage/planner/voxel_scorer.hpp"
+#include "vantage/planner/advanced/voxel_scorer.hpp"
 
 namespace vantage::bench {
 namespace {

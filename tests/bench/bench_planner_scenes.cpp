@@ -4,7 +4,7 @@
 
 #include "bench_volume_scenes.hpp"
 #include "reference/random_boxes.hpp"
-#include "vantage/volume/classify.hpp"
+#include "vantage/volume/advanced/classify.hpp"
 
 namespace vantage::bench {
 namespace {

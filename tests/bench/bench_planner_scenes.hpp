@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "reference/box_oracle.hpp"
-#include "vantage/planner/planning_scene.hpp"
+#include "vantage/planner/advanced/planning_scene.hpp"
 #include "vantage/planner/view_candidates.hpp"
 #include "vantage/raycore/camera.hpp"
 #include "vantage/raycore/world_model.hpp"

@@ -6,8 +6,8 @@
 #include "bare_embree.hpp"
 #include "bench_planner_scenes.hpp"
 #include "timing.hpp"
+#include "vantage/planner/advanced/shadow_scorer.hpp"
 #include "vantage/planner/plan.hpp"
-#include "vantage/planner/shadow_scorer.hpp"
 
 namespace vantage::bench {
 namespace {

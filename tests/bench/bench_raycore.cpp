@@ -14,7 +14,7 @@
 
 #include "bare_embree.hpp"
 #include "timing.hpp"
-#include "vantage/raycore/scene_builder.hpp"
+#include "vantage/raycore/advanced/scene_builder.hpp"
 #include "workload.hpp"
 
 namespace vantage::bench {

@@ -12,7 +12,7 @@
 #include "bare_embree.hpp"
 #include "seen_scene.hpp"
 #include "timing.hpp"
-#include "vantage/raycore/unobserved_space.hpp"
+#include "vantage/raycore/advanced/unobserved_space.hpp"
 
 namespace vantage::bench {
 namespace {
@@ -42,7 +42,7 @@ Workload rays_of(const PinholeCamera& camera, const std::vector<TriangleMesh>& s
 }
 
 struct Fixture {
-  std::vector<DepthLattice> lattices;
+  std::vector<VisibilityMesh> lattices;
   std::vector<TriangleMesh> meshes;
   std::vector<PinholeCamera> viewers = seen_viewers();
   std::vector<PixelTile> tiles = tiles_of(viewers[0]);
@@ -50,13 +50,13 @@ struct Fixture {
   std::size_t rays = tiles.size() * PixelTile::kPixels;
 
   explicit Fixture(int step) : lattices(seen_lattices(step)) {
-    for (const DepthLattice& lattice : lattices) meshes.push_back(visibility_mesh(lattice));
+    for (const VisibilityMesh& lattice : lattices) meshes.push_back(visibility_mesh(lattice));
   }
 };
 
 void views(benchmark::State& state, int step) {
   Fixture f(step);
-  const SeenSpace space(f.lattices, seen_box());
+  const UnobservedSpace space(f.lattices, seen_box());
   const BareScene bare(f.meshes);
   std::vector<BareRays> bare_rays;
   for (const PinholeCamera& viewer : f.viewers) bare_rays.emplace_back(rays_of(viewer, f.meshes));
@@ -82,7 +82,7 @@ void views(benchmark::State& state, int step) {
   state.counters["time_over_bare"] = median(ratios);
 }
 
-/// One lattice's volume as a SeenSpace builds it, and as triangles.
+/// One lattice's volume as a UnobservedSpace builds it, and as triangles.
 void build(benchmark::State& state, int step) {
   const Fixture f(step);
   tbb::task_arena one(1);
@@ -90,7 +90,7 @@ void build(benchmark::State& state, int step) {
   one.execute([&] {
     for (auto _ : state) {
       const double seconds = thread_seconds([&] {
-        SeenSpace space({&f.lattices[0], 1}, seen_box());
+        UnobservedSpace space({&f.lattices[0], 1}, seen_box());
       });
       const double bare_seconds = thread_seconds([&] { BareScene bare({f.meshes[0]}); });
       state.SetIterationTime(seconds);

@@ -124,7 +124,7 @@ Workload device_rays(const Setting& s, const Workload& first, double offset_m) {
 Eigen::Vector3f random_vector(std::uint64_t key) {
   Eigen::Vector3f v;
   for (int i = 0; i < 3; ++i) {
-    v[i] = detail::signed_unit(std::uint32_t(sample_hash(key, i)));
+    v[i] = simulator::detail::signed_unit(std::uint32_t(sample_hash(key, i)));
   }
   return v;
 }

@@ -22,7 +22,7 @@
 #include "bench_volume_scenes.hpp"
 #include "reference/thesis_volume.hpp"
 #include "timing.hpp"
-#include "vantage/volume/classify.hpp"
+#include "vantage/volume/advanced/classify.hpp"
 #include "vantage/volume/shadow_volume.hpp"
 
 namespace vantage::bench {
@@ -161,7 +161,7 @@ void fold_frame(benchmark::State& state, bool known) {
     std::size_t frame = 0;
     for (auto _ : state) {
       frame = (frame + 1) % scene.frames.size();
-      Observer observer = scene.world.cameras[0];
+      DepthCamera observer = scene.world.cameras[0];
       observer.depth = scene.frames[frame];
       set_depth.push_back(wall_seconds([&] { volume.set_depth(0, observer.depth); }));
       ours.push_back(set_depth.back() + wall_seconds([&] { grid = volume.grid(); }));

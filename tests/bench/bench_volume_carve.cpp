@@ -49,7 +49,7 @@ void mark_points(const Projection& c, const DepthImage& depth, const GridGeometr
 
 }  // namespace
 
-std::vector<VoxelState> carve(const Observer& observer, const GridGeometry& geometry,
+std::vector<VoxelState> carve(const DepthCamera& observer, const GridGeometry& geometry,
                               const VolumeOptions& options) {
   const Projection c(observer.camera);
   const DepthImage& depth = *observer.depth;

@@ -13,7 +13,7 @@ namespace vantage::bench {
 /// One depth image folded in voxel by voxel, as one would write it: a dense array, x slowest,
 /// z fastest, one thread, every centre projected and compared, in float. There are no known
 /// objects.
-std::vector<VoxelState> carve(const Observer& observer, const GridGeometry& geometry,
+std::vector<VoxelState> carve(const DepthCamera& observer, const GridGeometry& geometry,
                               const VolumeOptions& options = {});
 
 }  // namespace vantage::bench

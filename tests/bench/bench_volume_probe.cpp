@@ -11,7 +11,7 @@
 
 #include "bench_volume_scenes.hpp"
 #include "timing.hpp"
-#include "vantage/volume/classify.hpp"
+#include "vantage/volume/advanced/classify.hpp"
 
 namespace vantage::bench {
 namespace {

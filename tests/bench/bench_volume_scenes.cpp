@@ -5,7 +5,7 @@
 
 #include "reference/noisy_depth.hpp"
 #include "reference/random_boxes.hpp"
-#include "vantage/raycore/scene_builder.hpp"
+#include "vantage/raycore/advanced/scene_builder.hpp"
 
 namespace vantage::bench {
 namespace {

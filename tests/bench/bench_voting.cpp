@@ -17,12 +17,12 @@
 
 namespace {
 
-std::atomic<std::int64_t> live_bytes{0}, most_bytes{0};
+std::atomic<std::int64_t> live_bytes{0}, max_bytes{0};
 
 void count(std::int64_t bytes) {
   const std::int64_t now = live_bytes += bytes;
-  std::int64_t most = most_bytes;
-  while (now > most && !most_bytes.compare_exchange_weak(most, now)) {
+  std::int64_t most = max_bytes;
+  while (now > most && !max_bytes.compare_exchange_weak(most, now)) {
   }
 }
 
@@ -120,9 +120,9 @@ void run(benchmark::State& state, Maker make) {
   std::int64_t most = 0;
   for (auto _ : state) {
     const std::int64_t before = live_bytes;
-    most_bytes = before;
+    max_bytes = before;
     arena.execute([&] { objects = reconstruct_voting(views, knowledge).objects.size(); });
-    most = most_bytes - before;
+    most = max_bytes - before;
   }
   state.counters["objects"] = double(objects);
   state.counters["MB"] = double(most) * 1e-6;

@@ -13,9 +13,9 @@
 #include "metrics/planning/planning_numbers.hpp"
 #include "scaling_plot.hpp"
 #include "timing.hpp"
-#include "vantage/planner/view_search.hpp"
-#include "vantage/planner/voxel_scorer.hpp"
-#include "vantage/raycore/file.hpp"
+#include "vantage/planner/advanced/view_search.hpp"
+#include "vantage/planner/advanced/voxel_scorer.hpp"
+#include "vantage/raycore/detail/file.hpp"
 
 namespace vantage::bench {
 namespace {
@@ -44,8 +44,8 @@ double seconds_of_all(const VoxelScorer& scorer, const std::vector<PinholeCamera
 /// The ten best, by bounds, with everything that a search does.
 double seconds_of_search(const PlannerScene& scene, std::shared_ptr<const VoxelScorer> scorer,
                          const CandidateSet& set) {
-  const auto checker =
-      std::make_shared<const ViewChecker>(ViewConstraints(), scene.scene, scene.camera.range());
+  const auto checker = std::make_shared<const ViewValidityChecker>(ViewConstraints(), scene.scene,
+                                                                   scene.camera.range());
   const ViewSearch search(std::move(scorer), checker, nullptr, scene.camera, {});
   const std::vector<ViewCandidate> candidates = view_candidates(set, scene.area);
   return best_of_three([&] { search.run(candidates); });

@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "reference/random_scene.hpp"
-#include "vantage/raycore/scene_builder.hpp"
+#include "vantage/raycore/advanced/scene_builder.hpp"
 #include "workload.hpp"
 
 namespace vantage::bench {
@@ -66,13 +66,13 @@ std::vector<PosedDepth> seen_images() {
   return images;
 }
 
-std::vector<DepthLattice> seen_lattices(int step) {
+std::vector<VisibilityMesh> seen_lattices(int step) {
   const auto scene = cubes_on_floor();
-  std::vector<DepthLattice> lattices;
+  std::vector<VisibilityMesh> lattices;
   for (int i = 0; i < 4; ++i) {
     const PinholeCamera camera = measuring(i);
     const DepthImage depth = scene->render_depth(camera);
-    DepthLattice lattice{camera, lines(kWidth, step), lines(kHeight, step), {}};
+    VisibilityMesh lattice{camera, lines(kWidth, step), lines(kHeight, step), {}};
     test::Random random(std::uint32_t(i) + 1);
     for (const float row : lattice.rows) {
       for (const float column : lattice.columns) {
@@ -93,7 +93,7 @@ std::vector<PinholeCamera> seen_viewers() {
   return viewers;
 }
 
-TriangleMesh visibility_mesh(const DepthLattice& lattice) {
+TriangleMesh visibility_mesh(const VisibilityMesh& lattice) {
   const auto width = std::uint32_t(lattice.width()), height = std::uint32_t(lattice.height());
   std::vector<Eigen::Vector3f> vertices;
   for (std::uint32_t j = 0; j < height; ++j) {

@@ -2,11 +2,11 @@
 
 #include <vector>
 
+#include "vantage/raycore/advanced/visibility_mesh.hpp"
 #include "vantage/raycore/box.hpp"
 #include "vantage/raycore/camera.hpp"
 #include "vantage/raycore/depth_image.hpp"
 #include "vantage/raycore/triangle_mesh.hpp"
-#include "vantage/raycore/visibility_mesh.hpp"
 
 namespace vantage::bench {
 
@@ -18,12 +18,12 @@ Box seen_box();
 std::vector<PosedDepth> seen_images();
 
 /// The same at every `step`-th pixel and the last one, with other noise.
-std::vector<DepthLattice> seen_lattices(int step);
+std::vector<VisibilityMesh> seen_lattices(int step);
 
 /// 40 cameras of 160×120 pixels on a half-sphere around it.
 std::vector<PinholeCamera> seen_viewers();
 
 /// A lattice's volume as a closed mesh that looks outwards. Every depth has to be known.
-TriangleMesh visibility_mesh(const DepthLattice& lattice);
+TriangleMesh visibility_mesh(const VisibilityMesh& lattice);
 
 }  // namespace vantage::bench

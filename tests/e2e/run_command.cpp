@@ -5,8 +5,8 @@
 
 #include <cstdlib>
 
+#include "vantage/raycore/advanced/scene_builder.hpp"
 #include "vantage/raycore/image_io.hpp"
-#include "vantage/raycore/scene_builder.hpp"
 
 namespace vantage::test {
 
@@ -63,7 +63,7 @@ fs::path write_scene(const TemporaryFolder& folder) {
   builder.add_box(Box({-0.08, 0, 0}, {0.08, 0.06, 0.15}));
   const DepthImage depth = builder.build()->render_depth(
       PinholeCamera({320, 240, 300, 300, 159.5, 119.5}, T_cam_world.inverse(), {0.1, 10}));
-  CountImage counts(320, 240);
+  RawDepthImage counts(320, 240);
   for (std::size_t i = 0; i < counts.samples.size(); ++i) {
     const float metres = depth.metres()[i];
     if (metres > 0) counts.samples[i] = std::uint16_t(std::lround(1000 * metres));

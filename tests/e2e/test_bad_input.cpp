@@ -11,11 +11,11 @@ using test::TemporaryFolder;
 namespace fs = std::filesystem;
 
 /// Exit code, and every part in stderr; nothing on stdout, and no file written.
-void expect_failure(const std::string& arguments, int exit_code,
+void expect_failure(const std::string& options, int exit_code,
                     std::initializer_list<std::string_view> parts) {
   const TemporaryFolder folder;
-  const auto result = run_vantage(arguments + " -o '" + (folder / "out").string() + "'");
-  CAPTURE(arguments);
+  const auto result = run_vantage(options + " -o '" + (folder / "out").string() + "'");
+  CAPTURE(options);
   CAPTURE(result.err);
   CHECK(result.exit_code == exit_code);
   CHECK(result.out.empty());
@@ -86,7 +86,7 @@ TEST_CASE("an 8-bit depth PNG") {
 TEST_CASE("depth and intrinsics of different size") {
   const TemporaryFolder folder;
   const fs::path scene = test::write_scene(folder);
-  write_png(scene / "depth/000007.png", CountImage(80, 60, 900));
+  write_png(scene / "depth/000007.png", RawDepthImage(80, 60, 900));
   expect_failure(plan(scene), 3, {"80", "60"});
 }
 

@@ -129,28 +129,28 @@ TEST_CASE("settings of the volume: defaults, a workcell's, and the command line'
   const test::TemporaryFolder folder;
   const fs::path scene = test::write_scene(folder);
   const std::string plan = "plan '" + scene.string() + "'" + test::kSceneArea + " --json";
-  const auto settings = [](const test::CommandResult& result) {
+  const auto options = [](const test::CommandResult& result) {
     CAPTURE(result.err);
     REQUIRE(result.exit_code == 0);
     return result.json()["config"]["volume"];
   };
   const nlohmann::json noise = {{"focal_px", 424.0}, {"baseline_m", 0.05}, {"subpixel_px", 0.08}};
-  CHECK(settings(run_vantage(plan)) ==
+  CHECK(options(run_vantage(plan)) ==
         nlohmann::json{
             {"occluders", "mesh"}, {"anti_alias", false}, {"band_sigmas", 4.0}, {"noise", noise}});
-  CHECK(settings(run_vantage(plan + " --occluders voxels"))["anti_alias"] == true);
+  CHECK(options(run_vantage(plan + " --occluders voxels"))["anti_alias"] == true);
   const fs::path cell =
       folder.write("cell.yaml",
                    "work_area: {min_m: [-0.2, -0.1, 0.02], max_m: [0.2, 0.3, 0.22]}\n"
                    "volume: {occluders: voxels, band_sigmas: 3, noise: {subpixel_px: 0.1}}\n");
   const std::string with_cell = plan + " --workcell '" + cell.string() + "'";
-  const nlohmann::json from_cell = settings(run_vantage(with_cell));
+  const nlohmann::json from_cell = options(run_vantage(with_cell));
   CHECK(from_cell["occluders"] == "voxels");
   CHECK(from_cell["band_sigmas"] == 3.0);
   CHECK(from_cell["noise"]["subpixel_px"] == 0.1);
   CHECK(
-      settings(run_vantage(with_cell + " --occluders mesh --anti-alias on --band-sigmas 0"
-                                       " --depth-noise-px 0.2")) ==
+      options(run_vantage(with_cell + " --occluders mesh --anti-alias on --band-sigmas 0"
+                                      " --depth-noise-px 0.2")) ==
       nlohmann::json{{"occluders", "mesh"},
                      {"anti_alias", true},
                      {"band_sigmas", 0.0},

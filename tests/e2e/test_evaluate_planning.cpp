@@ -86,10 +86,9 @@ TEST_CASE("evaluate planning: but for the times, the same bytes at any number of
 
 TEST_CASE("evaluate planning refuses what it cannot evaluate, and writes nothing") {
   const test::TemporaryFolder folder;
-  const auto refused = [&](const std::string& arguments, int exit_code, const char* reason) {
-    CAPTURE(arguments);
-    const auto result =
-        run_vantage("evaluate planning" + arguments + " -o" + quoted(folder / "out"));
+  const auto refused = [&](const std::string& options, int exit_code, const char* reason) {
+    CAPTURE(options);
+    const auto result = run_vantage("evaluate planning" + options + " -o" + quoted(folder / "out"));
     CHECK(result.exit_code == exit_code);
     CAPTURE(result.err);
     CHECK(result.err.find(reason) != std::string::npos);

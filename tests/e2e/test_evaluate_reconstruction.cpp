@@ -7,7 +7,7 @@
 #include "documents/schemas.hpp"
 #include "python_check.hpp"
 #include "run_command.hpp"
-#include "vantage/raycore/file.hpp"
+#include "vantage/raycore/detail/file.hpp"
 
 namespace vantage {
 namespace {

@@ -53,9 +53,9 @@ TEST_CASE("evaluate shadow-filters: depth without noise leaves little false shad
 }
 
 TEST_CASE("evaluate shadow-filters refuses what it cannot evaluate") {
-  const auto refused = [](const std::string& arguments, int exit_code, const char* reason) {
-    CAPTURE(arguments);
-    const auto result = run_vantage("evaluate shadow-filters" + arguments);
+  const auto refused = [](const std::string& options, int exit_code, const char* reason) {
+    CAPTURE(options);
+    const auto result = run_vantage("evaluate shadow-filters" + options);
     CHECK(result.exit_code == exit_code);
     CAPTURE(result.err);
     CHECK(result.err.find(reason) != std::string::npos);

@@ -5,7 +5,7 @@
 #include <map>
 
 #include "run_command.hpp"
-#include "vantage/raycore/file.hpp"
+#include "vantage/raycore/detail/file.hpp"
 
 namespace vantage {
 namespace {

@@ -17,11 +17,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   using namespace vantage;
   if (size == 0) return 0;
   const std::span<const std::uint8_t> bytes(data + 1, size - 1);
-  detail::MeshCollector collector("fuzz", 0.001);
+  raycore::detail::MeshCollector collector("fuzz", 0.001);
   try {
-    if (data[0] % 3 == 0) detail::read_stl(bytes, collector);
-    if (data[0] % 3 == 1) detail::read_ply(bytes, collector);
-    if (data[0] % 3 == 2) detail::read_obj(bytes, collector);
+    if (data[0] % 3 == 0) raycore::detail::read_stl(bytes, collector);
+    if (data[0] % 3 == 1) raycore::detail::read_ply(bytes, collector);
+    if (data[0] % 3 == 2) raycore::detail::read_obj(bytes, collector);
     const TriangleMesh mesh = std::move(collector).finish();
     if (mesh.empty()) std::abort();
   } catch (const Error& error) {

@@ -28,14 +28,14 @@ inline std::uint64_t hash_of(const Pose& pose, std::uint64_t seed) {
 class FakeScorer final : public ViewScorer {
  public:
   FakeScorer(std::uint64_t seed, Score most, Score slack)
-      : seed_(seed), most_(most), slack_(slack) {}
+      : seed_(seed), max_(most), slack_(slack) {}
 
   std::string_view name() const noexcept override { return "fake"; }
   double unit() const noexcept override { return 0.5; }
   std::string_view unit_name() const noexcept override { return "points"; }
   using ViewScorer::score;
 
-  Score true_score(const Pose& pose) const { return hash_of(pose, seed_) % (most_ + 1); }
+  Score true_score(const Pose& pose) const { return hash_of(pose, seed_) % (max_ + 1); }
 
   Score upper_bound(const PinholeCamera& view) const override {
     return true_score(view.T_world_cam()) + hash_of(view.T_world_cam(), seed_ + 1) % (slack_ + 1);
@@ -66,7 +66,7 @@ class FakeScorer final : public ViewScorer {
 
  private:
   std::uint64_t seed_;
-  Score most_, slack_;
+  Score max_, slack_;
   mutable std::atomic<std::size_t> exact_scores_{0};
 };
 

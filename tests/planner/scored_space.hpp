@@ -2,9 +2,9 @@
 
 #include <memory>
 
-#include "vantage/planner/mesh_scorer.hpp"
-#include "vantage/raycore/unobserved_space.hpp"
-#include "vantage/volume/shadow_filter.hpp"
+#include "vantage/planner/advanced/mesh_scorer.hpp"
+#include "vantage/raycore/advanced/unobserved_space.hpp"
+#include "vantage/volume/advanced/shadow_filter.hpp"
 
 namespace vantage::test {
 
@@ -14,10 +14,10 @@ inline TriangleMesh shell_of(const SeenWorld& world) {
 }
 
 /// The space whose unseen part the mesh method scores.
-inline std::unique_ptr<const SeenSpace> scored_space(const SeenWorld& world) {
+inline std::unique_ptr<const UnobservedSpace> scored_space(const SeenWorld& world) {
   const TriangleMesh shell = shell_of(world);
-  return std::make_unique<const SeenSpace>(world.lattices, world.work_area,
-                                           world.opened ? &shell : nullptr);
+  return std::make_unique<const UnobservedSpace>(world.lattices, world.work_area,
+                                                 world.opened ? &shell : nullptr);
 }
 
 }  // namespace vantage::test

@@ -1,8 +1,8 @@
 #include "planner/shadow_views.hpp"
 
 #include "reference/random_workcell.hpp"
-#include "vantage/volume/classify.hpp"
-#include "vantage/volume/voxel_surface.hpp"
+#include "vantage/volume/advanced/classify.hpp"
+#include "vantage/volume/advanced/voxel_surface.hpp"
 
 namespace vantage::test {
 namespace {

@@ -4,8 +4,8 @@
 #include <optional>
 
 #include "reference/random_scene.hpp"
-#include "vantage/planner/planning_scene.hpp"
-#include "vantage/planner/servo_refiner.hpp"
+#include "vantage/planner/advanced/planning_scene.hpp"
+#include "vantage/planner/advanced/servo_refiner.hpp"
 #include "vantage/raycore/camera.hpp"
 
 namespace vantage::test {

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "vantage/raycore/unobserved_space.hpp"
+#include "vantage/raycore/advanced/unobserved_space.hpp"
 
 namespace vantage::test {
 
@@ -27,7 +27,8 @@ struct UnseenPixel {
 };
 
 /// All pixels of a camera's tiles, those outside the image, too.
-inline std::vector<UnseenPixel> unseen_pixels(const SeenSpace& space, const PinholeCamera& camera) {
+inline std::vector<UnseenPixel> unseen_pixels(const UnobservedSpace& space,
+                                              const PinholeCamera& camera) {
   const std::vector<PixelTile> tiles = image_tiles(camera.intrinsics());
   std::vector<UnseenHits> hits(tiles.size());
   space.first_unseen(camera, tiles, hits);

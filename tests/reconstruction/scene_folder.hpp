@@ -35,7 +35,7 @@ class SceneFolder {
   SceneFolder& depth(std::string_view name = "000007.png", int width = 8, int height = 6,
                      std::uint16_t count = 2000) {
     std::filesystem::create_directories(path() / "depth");
-    write_png(path() / "depth" / name, CountImage(width, height, count));
+    write_png(path() / "depth" / name, RawDepthImage(width, height, count));
     return *this;
   }
 

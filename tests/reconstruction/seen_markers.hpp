@@ -35,10 +35,12 @@ inline std::vector<Eigen::Vector3d> marker_corners(double size_m, const Pose& T_
 }
 
 /// A marker as a camera sees it, with noise on its corners.
-inline detail::PointTerm seen_marker(const Lens& lens, const Pose& T_cam_ref,
-                                     const Pose& T_ref_body, std::vector<Eigen::Vector3d> points,
-                                     double sigma_px, Random& random) {
-  detail::PointTerm term{&lens, T_cam_ref, std::move(points), {}, std::max(sigma_px, 0.1)};
+inline reconstruction::detail::PointTerm seen_marker(const Lens& lens, const Pose& T_cam_ref,
+                                                     const Pose& T_ref_body,
+                                                     std::vector<Eigen::Vector3d> points,
+                                                     double sigma_px, Random& random) {
+  reconstruction::detail::PointTerm term{
+      &lens, T_cam_ref, std::move(points), {}, std::max(sigma_px, 0.1)};
   for (const Eigen::Vector3d& p : term.points_m) {
     const Eigen::Vector2d noise = sigma_px * normal2(random);
     term.pixels.push_back(lens.project(T_cam_ref * (T_ref_body * p)) + noise);
@@ -49,7 +51,7 @@ inline detail::PointTerm seen_marker(const Lens& lens, const Pose& T_cam_ref,
 /// A body with markers of 5 cm within 10 cm, each seen by one of three cameras a metre away.
 struct SeenBody {
   Pose T_world_body;
-  std::vector<detail::PointTerm> terms;
+  std::vector<reconstruction::detail::PointTerm> terms;
 
   SeenBody(Random& random, int markers, double sigma_px) : T_world_body(random.pose(0.3)) {
     const Lens& lens = some_lenses()[random.below(std::uint32_t(some_lenses().size()))];

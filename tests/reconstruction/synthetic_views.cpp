@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "vantage/raycore/scene_builder.hpp"
+#include "vantage/raycore/advanced/scene_builder.hpp"
 #include "vantage/raycore/solids.hpp"
 
 namespace vantage::test {

@@ -5,8 +5,8 @@
 #include <optional>
 #include <vector>
 
+#include "vantage/raycore/advanced/scene.hpp"
 #include "vantage/raycore/pose.hpp"
-#include "vantage/raycore/scene.hpp"
 #include "vantage/raycore/triangle_mesh.hpp"
 
 namespace vantage::test {

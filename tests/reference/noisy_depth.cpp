@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "vantage/raycore/scene_builder.hpp"
+#include "vantage/raycore/advanced/scene_builder.hpp"
 
 namespace vantage::test {
 

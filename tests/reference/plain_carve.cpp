@@ -9,10 +9,11 @@ namespace {
 constexpr double kHair = 1e-9;
 
 template <class Says>
-PlainSeen ask(std::span<const DepthLattice> lattices, const Eigen::Vector3d& p, const Says& says) {
+PlainSeen ask(std::span<const VisibilityMesh> lattices, const Eigen::Vector3d& p,
+              const Says& says) {
   const auto any = [&](const Eigen::Vector3d& point) {
     return std::any_of(lattices.begin(), lattices.end(),
-                       [&](const DepthLattice& lattice) { return says(lattice, point); });
+                       [&](const VisibilityMesh& lattice) { return says(lattice, point); });
   };
   PlainSeen result{any(p), false};
   for (int axis = 0; axis < 3; ++axis) {
@@ -25,13 +26,14 @@ PlainSeen ask(std::span<const DepthLattice> lattices, const Eigen::Vector3d& p, 
 
 }  // namespace
 
-PlainSeen plain_seen(std::span<const DepthLattice> lattices, const Eigen::Vector3d& p_world) {
-  return ask(lattices, p_world,
-             [](const DepthLattice& lattice, const Eigen::Vector3d& p) { return lattice.sees(p); });
+PlainSeen plain_seen(std::span<const VisibilityMesh> lattices, const Eigen::Vector3d& p_world) {
+  return ask(lattices, p_world, [](const VisibilityMesh& lattice, const Eigen::Vector3d& p) {
+    return lattice.sees(p);
+  });
 }
 
-PlainSeen plain_covered(std::span<const DepthLattice> lattices, const Eigen::Vector3d& p_world) {
-  return ask(lattices, p_world, [](const DepthLattice& lattice, const Eigen::Vector3d& p) {
+PlainSeen plain_covered(std::span<const VisibilityMesh> lattices, const Eigen::Vector3d& p_world) {
+  return ask(lattices, p_world, [](const VisibilityMesh& lattice, const Eigen::Vector3d& p) {
     const auto at = lattice.camera.project(p);
     return at && at->u >= double(lattice.columns.front()) &&
            at->u <= double(lattice.columns.back()) && at->v >= double(lattice.rows.front()) &&

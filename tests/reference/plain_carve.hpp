@@ -2,7 +2,7 @@
 
 #include <span>
 
-#include "vantage/raycore/visibility_mesh.hpp"
+#include "vantage/raycore/advanced/visibility_mesh.hpp"
 #include "vantage/volume/grid_geometry.hpp"
 
 namespace vantage::test {
@@ -15,9 +15,9 @@ struct PlainSeen {
 };
 
 /// The slow, obvious twin of `carve`: every lattice is asked about every voxel's centre.
-PlainSeen plain_seen(std::span<const DepthLattice> lattices, const Eigen::Vector3d& p_world);
+PlainSeen plain_seen(std::span<const VisibilityMesh> lattices, const Eigen::Vector3d& p_world);
 
 /// Whether a point is before a lattice's camera and in the rectangle of its pixels.
-PlainSeen plain_covered(std::span<const DepthLattice> lattices, const Eigen::Vector3d& p_world);
+PlainSeen plain_covered(std::span<const VisibilityMesh> lattices, const Eigen::Vector3d& p_world);
 
 }  // namespace vantage::test

@@ -69,8 +69,8 @@ bool PlainClassifier::inside_known(const Eigen::Vector3d& point, bool& close_cal
   return false;
 }
 
-bool PlainClassifier::holds_measured_point(const Observer& observer, const Eigen::Vector3i& voxel,
-                                           bool& close_call) const {
+bool PlainClassifier::holds_measured_point(const DepthCamera& observer,
+                                           const Eigen::Vector3i& voxel, bool& close_call) const {
   bool holds = false;
   const Eigen::Vector3d low = geometry_.corner(voxel);
   const Eigen::Vector3d high = geometry_.corner(voxel + Eigen::Vector3i::Ones());
@@ -90,7 +90,7 @@ bool PlainClassifier::holds_measured_point(const Observer& observer, const Eigen
   return holds;
 }
 
-PlainClassifier::Says PlainClassifier::compare_with_depth(const Observer& observer,
+PlainClassifier::Says PlainClassifier::compare_with_depth(const DepthCamera& observer,
                                                           const Eigen::Vector3i& voxel,
                                                           bool& close_call) const {
   const Eigen::Vector3d centre = geometry_.centre(voxel);
@@ -112,13 +112,13 @@ PlainClassifier::Says PlainClassifier::compare_with_depth(const Observer& observ
   return p.depth < d ? Says::free : Says::nothing;
 }
 
-bool PlainClassifier::sees_through(const Observer& observer, const Eigen::Vector3i& voxel,
+bool PlainClassifier::sees_through(const DepthCamera& observer, const Eigen::Vector3i& voxel,
                                    bool& close_call) const {
   return observer.depth != nullptr && compare_with_depth(observer, voxel, close_call) == Says::free;
 }
 
-PlainClassifier::Says PlainClassifier::ask(const Observer& observer, const Eigen::Vector3i& voxel,
-                                           bool& close_call) const {
+PlainClassifier::Says PlainClassifier::ask(const DepthCamera& observer,
+                                           const Eigen::Vector3i& voxel, bool& close_call) const {
   const Eigen::Vector3d centre = geometry_.centre(voxel);
   if (observer.depth != nullptr) {
     const Says says = compare_with_depth(observer, voxel, close_call);
@@ -137,7 +137,7 @@ PlainState PlainClassifier::classify(const Eigen::Vector3i& voxel) const {
     result.state = VoxelState::occupied;
     return result;
   }
-  for (const Observer& observer : world_.cameras) {
+  for (const DepthCamera& observer : world_.cameras) {
     const Says says = ask(observer, voxel, result.close_call);
     if (says == Says::free) result.state = VoxelState::free;
     if (says == Says::surface) result.measured = true;

@@ -29,7 +29,8 @@ class PlainClassifier {
   PlainState classify(const Eigen::Vector3i& voxel) const;
 
   /// Whether a depth image sees through a voxel, whatever is known to be there.
-  bool sees_through(const Observer& observer, const Eigen::Vector3i& voxel, bool& close_call) const;
+  bool sees_through(const DepthCamera& observer, const Eigen::Vector3i& voxel,
+                    bool& close_call) const;
 
   /// Whether a camera sees a point past all known objects; what it measured is left aside.
   Verdict hidden(const PinholeCamera& camera, const Eigen::Vector3d& point) const;
@@ -37,10 +38,10 @@ class PlainClassifier {
  private:
   bool inside_known(const Eigen::Vector3d& point, bool& close_call) const;
   enum class Says { nothing, free, surface };
-  Says ask(const Observer& observer, const Eigen::Vector3i& voxel, bool& close_call) const;
-  Says compare_with_depth(const Observer& observer, const Eigen::Vector3i& voxel,
+  Says ask(const DepthCamera& observer, const Eigen::Vector3i& voxel, bool& close_call) const;
+  Says compare_with_depth(const DepthCamera& observer, const Eigen::Vector3i& voxel,
                           bool& close_call) const;
-  bool holds_measured_point(const Observer& observer, const Eigen::Vector3i& voxel,
+  bool holds_measured_point(const DepthCamera& observer, const Eigen::Vector3i& voxel,
                             bool& close_call) const;
 
   const WorldModel& world_;

@@ -66,7 +66,7 @@ Parameters minimised(const std::vector<PlainSighting>& all, const std::vector<st
   return p;
 }
 
-/// Turned in all the ways of a cube, on the line of sight of the first sighting.
+/// Turned in all the ways of a cube, on the line of sight of the first measurement.
 std::vector<Parameters> starts(const PlainSighting& seen) {
   std::vector<Parameters> found;
   const Eigen::Vector3d eye = seen.T_world_cam.translation();
@@ -92,8 +92,8 @@ bool possible(const std::vector<PlainSighting>& all, const std::vector<std::size
   return places.size() == chosen.size();
 }
 
-/// Walks through all ways to divide the sightings; each goes into an object that is there, or into
-/// a new one.
+/// Walks through all ways to divide the measurements; each goes into an object that is there, or
+/// into a new one.
 struct Divider {
   const std::vector<PlainSighting>& all;
   double inlier_px;
@@ -134,23 +134,24 @@ struct Divider {
 }  // namespace
 
 std::optional<PlainObject> plain_fit(const std::vector<PlainSighting>& all,
-                                     const std::vector<std::size_t>& sightings, double inlier_px) {
-  if (!possible(all, sightings)) return std::nullopt;
+                                     const std::vector<std::size_t>& measurements,
+                                     double inlier_px) {
+  if (!possible(all, measurements)) return std::nullopt;
   Parameters best;
   double least = std::numeric_limits<double>::infinity();
-  for (const Parameters& start : starts(all[sightings.front()])) {
-    const Parameters p = minimised(all, sightings, start);
-    const double sum = residuals(all, sightings, p).squaredNorm();
+  for (const Parameters& start : starts(all[measurements.front()])) {
+    const Parameters p = minimised(all, measurements, start);
+    const double sum = residuals(all, measurements, p).squaredNorm();
     if (!(sum < least) || p.head<3>().norm() > 0.3) continue;
     least = sum;
     best = p;
   }
   if (!std::isfinite(least)) return std::nullopt;
-  for (const std::size_t s : sightings) {
+  for (const std::size_t s : measurements) {
     const double points = double(all[s].points_m.size());
     if (residuals(all, {s}, best).norm() > inlier_px * std::sqrt(points)) return std::nullopt;
   }
-  return PlainObject{sightings, pose_of(best), least};
+  return PlainObject{measurements, pose_of(best), least};
 }
 
 std::vector<PlainObject> plain_instances(const std::vector<PlainSighting>& all, double inlier_px) {

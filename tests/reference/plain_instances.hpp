@@ -6,7 +6,7 @@
 #include "vantage/raycore/lens.hpp"
 #include "vantage/raycore/pose.hpp"
 
-// The slow, obvious twin of multi-view PnP: every way to divide the sightings of one type among
+// The slow, obvious twin of multi-view PnP: every way to divide the measurements of one type among
 // objects is tried, and every object is fitted from many starts with numeric derivatives.
 namespace vantage::test {
 
@@ -21,19 +21,20 @@ struct PlainSighting {
 };
 
 struct PlainObject {
-  std::vector<std::size_t> sightings;  ///< ascending
+  std::vector<std::size_t> measurements;  ///< ascending
   Pose T_world_object;
   double squared_px = 0;
 };
 
 /// The pose with the smallest sum of squared residuals, if with it the root mean square of every
-/// sighting is within `inlier_px`; and if no feature is there twice in a view. Objects are looked
-/// for within 30 cm of the origin.
+/// measurement is within `inlier_px`; and if no feature is there twice in a view. Objects are
+/// looked for within 30 cm of the origin.
 std::optional<PlainObject> plain_fit(const std::vector<PlainSighting>& all,
-                                     const std::vector<std::size_t>& sightings, double inlier_px);
+                                     const std::vector<std::size_t>& measurements,
+                                     double inlier_px);
 
-/// The fewest objects that explain all sightings, of these the ones with the smallest sum of
-/// squared residuals; in the order of their first sightings. Up to eight sightings.
+/// The fewest objects that explain all measurements, of these the ones with the smallest sum of
+/// squared residuals; in the order of their first measurements. Up to eight measurements.
 std::vector<PlainObject> plain_instances(const std::vector<PlainSighting>& all, double inlier_px);
 
 }  // namespace vantage::test

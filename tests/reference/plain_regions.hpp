@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "vantage/volume/shadow_regions.hpp"
+#include "vantage/volume/advanced/shadow_regions.hpp"
 #include "vantage/volume/state_grid.hpp"
 
 namespace vantage::test {

@@ -44,9 +44,10 @@ bool clip(const Eigen::Vector4d& plane, const Eigen::Vector3d& origin,
 
 }  // namespace
 
-PlainSeenSpace::PlainSeenSpace(std::span<const DepthLattice> lattices, const Box& box) : box_(box) {
+PlainSeenSpace::PlainSeenSpace(std::span<const VisibilityMesh> lattices, const Box& box)
+    : box_(box) {
   for (std::uint32_t k = 0; k < lattices.size(); ++k) {
-    const DepthLattice& lattice = lattices[k];
+    const VisibilityMesh& lattice = lattices[k];
     const auto depth = [&](std::size_t i, std::size_t j) {
       return double(lattice.depth[j * lattice.columns.size() + i]);
     };

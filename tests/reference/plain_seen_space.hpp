@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
+#include "vantage/raycore/advanced/visibility_mesh.hpp"
 #include "vantage/raycore/box.hpp"
-#include "vantage/raycore/visibility_mesh.hpp"
 
 namespace vantage::test {
 
@@ -22,12 +22,12 @@ struct PlainUnseen {
   std::vector<Source> sources;  ///< all that end there: any of them will do
 };
 
-/// The slow, obvious twin of SeenSpace. The volume of a lattice is a heap of tetrahedra, one from
-/// every triangle of its surface to its camera; a ray has an interval in each of them, in double,
-/// and the unseen begins where the union of all intervals first has a gap.
+/// The slow, obvious twin of UnobservedSpace. The volume of a lattice is a heap of tetrahedra, one
+/// from every triangle of its surface to its camera; a ray has an interval in each of them, in
+/// double, and the unseen begins where the union of all intervals first has a gap.
 class PlainSeenSpace {
  public:
-  PlainSeenSpace(std::span<const DepthLattice> lattices, const Box& box);
+  PlainSeenSpace(std::span<const VisibilityMesh> lattices, const Box& box);
 
   /// Gaps up to `thinnest` (in t) are none.
   PlainUnseen first_unseen(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "vantage/raycore/scene.hpp"
+#include "vantage/raycore/advanced/scene.hpp"
 
 namespace vantage::test {
 

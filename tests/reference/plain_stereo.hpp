@@ -1,8 +1,8 @@
 #pragma once
 
+#include "vantage/raycore/advanced/scene.hpp"
 #include "vantage/raycore/camera.hpp"
 #include "vantage/raycore/depth_image.hpp"
-#include "vantage/raycore/scene.hpp"
 
 namespace vantage::test {
 

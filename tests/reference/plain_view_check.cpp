@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "reference/plain_nearness.hpp"
-#include "vantage/volume/voxel_surface.hpp"
+#include "vantage/volume/advanced/voxel_surface.hpp"
 
 namespace vantage::test {
 namespace {
@@ -16,7 +16,7 @@ using Eigen::Vector3d;
 constexpr double kMargin = 1e-5;
 
 /// What a number says about being below a limit; it notes when that is a close call.
-struct Judge {
+struct ReconstructionEvaluator {
   bool close_call = false;
 
   bool below(double value, double limit) {
@@ -25,7 +25,7 @@ struct Judge {
   }
 };
 
-bool in_box(const Box& box, const Vector3d& p, Judge& judge) {
+bool in_box(const Box& box, const Vector3d& p, ReconstructionEvaluator& judge) {
   bool inside = true;
   for (int axis = 0; axis < 3; ++axis) {
     inside &= !judge.below(p[axis], box.min()[axis]) && judge.below(p[axis], box.max()[axis]);
@@ -34,7 +34,7 @@ bool in_box(const Box& box, const Vector3d& p, Judge& judge) {
 }
 
 /// Cell by cell, whether it is the one that the point is in.
-bool in_map(const ReachMap& map, const Vector3d& p, Judge& judge) {
+bool in_map(const ReachMap& map, const Vector3d& p, ReconstructionEvaluator& judge) {
   std::size_t next = 0;
   for (int i = 0; i < map.size.x(); ++i) {
     for (int j = 0; j < map.size.y(); ++j) {
@@ -49,7 +49,8 @@ bool in_map(const ReachMap& map, const Vector3d& p, Judge& judge) {
   return false;
 }
 
-bool in_reach(const ViewConstraints& limits, const Vector3d& centre, Judge& judge) {
+bool in_reach(const ViewConstraints& limits, const Vector3d& centre,
+              ReconstructionEvaluator& judge) {
   bool reached = true;
   if (limits.reach) {
     const double distance = (centre - limits.reach->base_m).norm();
@@ -93,7 +94,7 @@ double lowest_m(const ViewConstraints& limits, const Pose& pose) {
 }
 
 bool body_bumps(const ViewConstraints& limits, const ReferenceScene& occupied, const Pose& pose,
-                Judge& judge) {
+                ReconstructionEvaluator& judge) {
   if (judge.below(lowest_m(limits, pose), limits.clearance_m)) return true;
   if (const auto* body = std::get_if<BoxBody>(&limits.body)) {
     const double distance = nearest_surface(occupied, body->box, pose);
@@ -105,17 +106,17 @@ bool body_bumps(const ViewConstraints& limits, const ReferenceScene& occupied, c
   return allowed > 0 && judge.below(nearest_surface(occupied, pose.translation()), allowed);
 }
 
-Rejection first_reason(const WorldModel& world, const StateGrid& grid,
-                       const ViewConstraints& limits, const DepthRange& range, const Pose& pose,
-                       Judge& judge) {
+InvalidReason first_reason(const WorldModel& world, const StateGrid& grid,
+                           const ViewConstraints& limits, const DepthRange& range, const Pose& pose,
+                           ReconstructionEvaluator& judge) {
   const Vector3d centre = pose.translation();
-  if (judge.below(centre.z(), 0)) return Rejection::below_the_floor;
-  if (!in_reach(limits, centre, judge)) return Rejection::out_of_reach;
+  if (judge.below(centre.z(), 0)) return InvalidReason::below_the_floor;
+  if (!in_reach(limits, centre, judge)) return InvalidReason::out_of_reach;
   if (limits.view_cone) {
     const Vector3d forward = pose.rotation().col(2), &axis = limits.view_cone->axis;
     const double angle = std::atan2(forward.cross(axis).norm(), forward.dot(axis));
     if (!judge.below(angle, limits.view_cone->half_angle_rad)) {
-      return Rejection::outside_the_view_cone;
+      return InvalidReason::outside_the_view_cone;
     }
   }
   VoxelState state = VoxelState::free;
@@ -123,25 +124,25 @@ Rejection first_reason(const WorldModel& world, const StateGrid& grid,
   const ReferenceScene occupied = occupied_surfaces(world, grid);
   judge.close_call |= nearest_surface(occupied, centre) < kMargin;
   if (state == VoxelState::occupied || surrounded(occupied, centre)) {
-    return Rejection::inside_occupied_volume;
+    return InvalidReason::inside_occupied_volume;
   }
-  if (state == VoxelState::shadow) return Rejection::inside_shadow;
+  if (state == VoxelState::shadow) return InvalidReason::inside_shadow;
   ReferenceScene shadow;
   shadow.add(voxel_faces(grid, VoxelState::shadow), {}, 0);
   if (judge.below(nearest_surface(shadow, centre), range.near_m)) {
-    return Rejection::too_close_to_shadow;
+    return InvalidReason::too_close_to_shadow;
   }
-  return body_bumps(limits, occupied, pose, judge) ? Rejection::too_close_to_occupied
-                                                   : Rejection::none;
+  return body_bumps(limits, occupied, pose, judge) ? InvalidReason::too_close_to_occupied
+                                                   : InvalidReason::none;
 }
 
 }  // namespace
 
-std::optional<Rejection> plain_view_check(const WorldModel& world, const StateGrid& grid,
-                                          const ViewConstraints& limits, const DepthRange& range,
-                                          const Pose& T_world_cam) {
-  Judge judge;
-  const Rejection reason = first_reason(world, grid, limits, range, T_world_cam, judge);
+std::optional<InvalidReason> plain_view_check(const WorldModel& world, const StateGrid& grid,
+                                              const ViewConstraints& limits,
+                                              const DepthRange& range, const Pose& T_world_cam) {
+  ReconstructionEvaluator judge;
+  const InvalidReason reason = first_reason(world, grid, limits, range, T_world_cam, judge);
   if (judge.close_call) return std::nullopt;
   return reason;
 }

@@ -8,10 +8,10 @@
 
 namespace vantage::test {
 
-/// The slow twin of ViewChecker, for known objects' meshes as occluders: every limit written out,
-/// every triangle looked at. Nothing where 1e-5 m would change the answer.
-std::optional<Rejection> plain_view_check(const WorldModel& world, const StateGrid& grid,
-                                          const ViewConstraints& limits, const DepthRange& range,
-                                          const Pose& T_world_cam);
+/// The slow twin of ViewValidityChecker, for known objects' meshes as occluders: every limit
+/// written out, every triangle looked at. Nothing where 1e-5 m would change the answer.
+std::optional<InvalidReason> plain_view_check(const WorldModel& world, const StateGrid& grid,
+                                              const ViewConstraints& limits,
+                                              const DepthRange& range, const Pose& T_world_cam);
 
 }  // namespace vantage::test

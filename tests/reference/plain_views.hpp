@@ -4,9 +4,9 @@
 #include <span>
 #include <vector>
 
+#include "vantage/raycore/advanced/scene.hpp"
 #include "vantage/raycore/camera.hpp"
 #include "vantage/raycore/points.hpp"
-#include "vantage/raycore/scene.hpp"
 
 namespace vantage::test {
 

@@ -15,9 +15,9 @@ TurnedBox random_box(Random& random) {
   return box;
 }
 
-Intrinsics random_image(Random& random, double least_focal, double most_focal) {
+Intrinsics random_image(Random& random, double min_focal, double max_focal) {
   const int width = 160 + int(random.below(481)), height = 120 + int(random.below(361));
-  const double focal = width * random.uniform(least_focal, most_focal);
+  const double focal = width * random.uniform(min_focal, max_focal);
   return {width,
           height,
           focal,

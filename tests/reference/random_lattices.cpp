@@ -18,7 +18,7 @@ std::vector<float> random_lines(Random& random, int pixels) {
 }
 
 /// Depths of a plane with waves on it, or with spikes.
-void measure(Random& random, double distance, DepthLattice& lattice) {
+void measure(Random& random, double distance, VisibilityMesh& lattice) {
   const double mean = distance * random.uniform(0.6, 1.2);
   const double wave = random.below(3) == 0 ? 0 : random.uniform(0, 0.3) * mean;
   const double spike = random.below(2) == 0 ? 0 : random.uniform(0, 0.4) * mean;
@@ -34,12 +34,12 @@ void measure(Random& random, double distance, DepthLattice& lattice) {
   }
 }
 
-DepthLattice random_lattice(Random& random) {
+VisibilityMesh random_lattice(Random& random) {
   const double distance = random.uniform(0.2, 1.5);
   const Eigen::Vector3d target = random.in_cube(random.below(6) == 0 ? 3 : 0.2);
   const Eigen::Vector3d eye = target + distance * random.direction();
   const int width = 20 + int(random.below(60)), height = 20 + int(random.below(40));
-  DepthLattice lattice{
+  VisibilityMesh lattice{
       {{width, height, random.uniform(30, 90), random.uniform(30, 90), 0.5 * width, 0.4 * height},
        Pose::looking_at(eye, target)},
       random_lines(random, width),
@@ -63,7 +63,7 @@ RandomLattices random_lattices(std::uint32_t seed) {
   RandomLattices scene{random_lattice_box(random), {}};
   for (std::uint32_t i = 0, count = random.below(7); i < count; ++i) {
     scene.lattices.push_back(random_lattice(random));
-    DepthLattice& last = scene.lattices.back();
+    VisibilityMesh& last = scene.lattices.back();
     const std::uint32_t kind = random.below(8);
     if (kind == 0) scene.lattices.push_back(last);
     if (kind == 1) std::fill(last.depth.begin(), last.depth.end(), std::nanf(""));

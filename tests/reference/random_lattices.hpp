@@ -3,9 +3,9 @@
 #include <vector>
 
 #include "reference/random_scene.hpp"
+#include "vantage/raycore/advanced/visibility_mesh.hpp"
 #include "vantage/raycore/box.hpp"
 #include "vantage/raycore/camera.hpp"
-#include "vantage/raycore/visibility_mesh.hpp"
 
 namespace vantage::test {
 
@@ -14,7 +14,7 @@ namespace vantage::test {
 /// all, and beside the box.
 struct RandomLattices {
   Box box;
-  std::vector<DepthLattice> lattices;
+  std::vector<VisibilityMesh> lattices;
 };
 
 RandomLattices random_lattices(std::uint32_t seed);

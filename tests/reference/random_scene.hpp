@@ -6,7 +6,7 @@
 #include <random>
 
 #include "reference/moller_trumbore.hpp"
-#include "vantage/raycore/scene_builder.hpp"
+#include "vantage/raycore/advanced/scene_builder.hpp"
 
 namespace vantage::test {
 

@@ -1,6 +1,6 @@
 #include "reference/random_workcell.hpp"
 
-#include "vantage/raycore/scene_builder.hpp"
+#include "vantage/raycore/advanced/scene_builder.hpp"
 
 namespace vantage::test {
 namespace {

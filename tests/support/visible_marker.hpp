@@ -5,8 +5,8 @@
 #include <numbers>
 #include <optional>
 
+#include "vantage/raycore/advanced/scene.hpp"
 #include "vantage/raycore/camera.hpp"
-#include "vantage/raycore/scene.hpp"
 #include "vantage/reconstruction/marker.hpp"
 
 namespace vantage::test {

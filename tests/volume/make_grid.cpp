@@ -23,13 +23,13 @@ std::uint32_t hash(std::uint32_t seed, const Eigen::Vector3i& v) {
 std::shared_ptr<const StateGrid> make_grid(
     const GridGeometry& geometry, const std::function<MadeVoxel(const Eigen::Vector3i&)>& what,
     bool tiles) {
-  auto impl = std::make_unique<detail::StateGridImpl>(geometry);
+  auto impl = std::make_unique<volume::detail::StateGridImpl>(geometry);
   openvdb::MaskTree* const trees[] = {nullptr, &impl->occupied, &impl->shadow, &impl->revealed};
   for_each_voxel(geometry, [&](const Eigen::Vector3i& voxel) {
     const MadeVoxel made = what(voxel);
     ++impl->counts[std::size_t(made.state)];
     if (made.state == VoxelState::free) return;
-    const openvdb::Coord place = detail::to_coord(voxel);
+    const openvdb::Coord place = volume::detail::to_coord(voxel);
     trees[std::size_t(made.state)]->setValueOn(place);
     if (made.measured) impl->measured.setValueOn(place);
     if (made.unseen) impl->unseen.setValueOn(place);

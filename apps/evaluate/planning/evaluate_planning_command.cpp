@@ -14,7 +14,7 @@
 #include "evaluate/planning/planning_options.hpp"
 #include "metrics/planning/planning_tables.hpp"
 #include "plan/report/plan_json.hpp"
-#include "vantage/raycore/file.hpp"
+#include "vantage/raycore/detail/file.hpp"
 #include "version.hpp"
 #include "workcell/volume_settings.hpp"
 
@@ -34,29 +34,29 @@ struct PlanningResult {
   std::vector<fs::path> files;
 };
 
-PlanningSettings settings_of(const PlanningArguments& arguments) {
-  PlanningSettings settings = arguments.settings;
-  choose(arguments.methods, arguments.sets, settings);
+PlanningBenchmarkOptions options_of(const PlanningCommandOptions& options) {
+  PlanningBenchmarkOptions settings = options.benchmark;
+  choose(options.methods, options.sets, settings);
   settings.servo.check();
   settings.polish.check();
-  if (!arguments.occluders.empty()) settings.occluders = occluder_mode_of(arguments.occluders);
-  const bool drawn = !arguments.folder.empty() && !arguments.no_pictures;
+  if (!options.occluders.empty()) settings.occluders = occluder_mode_of(options.occluders);
+  const bool drawn = !options.folder.empty() && !options.no_pictures;
   settings.picture_width = drawn ? kPictureWidth : 0;
   return settings;
 }
 
 /// Every cell is loaded before the first is evaluated: what is wrong is said at once.
-std::vector<PlanningCell> load_cells(const PlanningArguments& arguments) {
+std::vector<PlanningCell> load_cells(const PlanningCommandOptions& options) {
   std::vector<PlanningCell> cells;
-  for (const std::string& scene : arguments.scenes) {
-    cells.push_back(load_planning_cell(planning_cell_name(scene), depth_kind_of(arguments.depth),
-                                       arguments.seed));
+  for (const std::string& scene : options.scenes) {
+    cells.push_back(
+        load_planning_cell(planning_cell_name(scene), depth_kind_of(options.depth), options.seed));
   }
   return cells;
 }
 
 PlanningResult evaluate_cells(const std::vector<PlanningCell>& cells,
-                              const PlanningSettings& settings, const StopToken& stop) {
+                              const PlanningBenchmarkOptions& settings, const StopToken& stop) {
   PlanningResult result;
   for (const NamedMethod& method : settings.methods) {
     result.evaluation.methods.push_back(method.name);
@@ -76,11 +76,11 @@ PlanningResult evaluate_cells(const std::vector<PlanningCell>& cells,
   return result;
 }
 
-Json config_json(const PlanningArguments& arguments, const PlanningSettings& settings) {
+Json config_json(const PlanningCommandOptions& options, const PlanningBenchmarkOptions& settings) {
   return {
-      {"scenes", arguments.scenes},
-      {"depth", arguments.depth},
-      {"seed", arguments.seed},
+      {"scenes", options.scenes},
+      {"depth", options.depth},
+      {"seed", options.seed},
       {"candidates", settings.sets},
       {"radii_m", settings.radii_m.empty() ? Json() : Json(settings.radii_m)},
       {"servo",
@@ -97,41 +97,41 @@ Json config_json(const PlanRequest& request) {
           {"volume", all["volume"]}};
 }
 
-Json json_of(const PlanningResult& result, const PlanningArguments& arguments,
-             const PlanningSettings& settings) {
+Json json_of(const PlanningResult& result, const PlanningCommandOptions& options,
+             const PlanningBenchmarkOptions& settings) {
   Json json = planning_to_json(result.evaluation);
   for (std::size_t i = 0; i < result.requests.size(); ++i) {
     json["scenes"][i]["config"] = config_json(result.requests[i]);
   }
   Json timing = json["timing"];
   json.erase("timing");
-  json["config"] = config_json(arguments, settings);
+  json["config"] = config_json(options, settings);
   json["inputs"] = inputs_json(result.files);
-  json["timing"] = {{"threads", arguments.threads}, {"repeat", settings.repeat}};
+  json["timing"] = {{"threads", options.threads}, {"repeat", settings.repeat}};
   json["timing"].update(timing);
   return json;
 }
 
-std::vector<std::string> settings_text(const PlanningArguments& arguments,
-                                       const PlanningSettings& settings) {
+std::vector<std::string> settings_text(const PlanningCommandOptions& options,
+                                       const PlanningBenchmarkOptions& settings) {
   return {fmt::format(
       "vantage {}, servo of {} iterations, {} of the best views polished, {}, run times: {} of {}.",
       kVersion, settings.servo.iterations, settings.polish.views,
-      arguments.threads > 0 ? fmt::format("{} threads", arguments.threads)
-                            : "as many threads as the machine has",
+      options.threads > 0 ? fmt::format("{} threads", options.threads)
+                          : "as many threads as the machine has",
       settings.repeat > 1 ? "medians" : "one run", settings.repeat)};
 }
 
-void write(const PlanningArguments& arguments, const PlanningSettings& settings,
+void write(const PlanningCommandOptions& options, const PlanningBenchmarkOptions& settings,
            const PlanningResult& result, const Json& json) {
-  const fs::path& folder = arguments.folder;
+  const fs::path& folder = options.folder;
   fs::create_directories(folder);
   write_file(folder / "planning.json", json.dump(1) + "\n");
   for (const std::string& set : settings.sets) {
     write_file(folder / ("planning_" + set + ".svg"), run_time_chart(result.evaluation, set));
   }
   write_file(folder / "planning.html",
-             planning_page(result.evaluation, result.pictures, settings_text(arguments, settings)));
+             planning_page(result.evaluation, result.pictures, settings_text(options, settings)));
   spdlog::info("wrote {}, planning.json and charts", (folder / "planning.html").string());
 }
 
@@ -144,20 +144,20 @@ std::string text_of(const PlanningEvaluation& evaluation) {
   return text;
 }
 
-ExitCode evaluate(const PlanningArguments& arguments) {
+ExitCode evaluate(const PlanningCommandOptions& options) {
   const StopToken stop;
-  const Interrupt interrupt({stop});
-  const PlanningSettings settings = settings_of(arguments);
-  Workers workers(arguments.threads);
+  const SignalHandler interrupt({stop});
+  const PlanningBenchmarkOptions settings = options_of(options);
+  Workers workers(options.threads);
   const PlanningResult result = workers.execute([&] {
-    const std::vector<PlanningCell> cells = load_cells(arguments);
+    const std::vector<PlanningCell> cells = load_cells(options);
     const ProgressLine progress("evaluating", stop);
     return evaluate_cells(cells, settings, stop);
   });
   if (stop.stop_requested()) return ExitCode::cancelled;
-  const Json json = json_of(result, arguments, settings);
-  if (!arguments.folder.empty()) write(arguments, settings, result, json);
-  std::cout << (arguments.json ? json.dump(1) + "\n" : text_of(result.evaluation)) << std::flush;
+  const Json json = json_of(result, options, settings);
+  if (!options.folder.empty()) write(options, settings, result, json);
+  std::cout << (options.json ? json.dump(1) + "\n" : text_of(result.evaluation)) << std::flush;
   return ExitCode::ok;
 }
 
@@ -168,10 +168,10 @@ void add_evaluate_planning(CLI::App& evaluate_verb, Action& action) {
       "planning",
       "The thesis' chapter 9 on simulated workcells: which views the methods pick, how good they "
       "are by the voxel method and in truth, and how long it takes");
-  const auto arguments = std::make_shared<PlanningArguments>();
-  arguments->add_to(*verb);
+  const auto options = std::make_shared<PlanningCommandOptions>();
+  options->add_to(*verb);
   verb->parse_complete_callback(
-      [&action, arguments] { action = [=] { return evaluate(*arguments); }; });
+      [&action, options] { action = [=] { return evaluate(*options); }; });
 }
 
 }  // namespace vantage

@@ -8,11 +8,11 @@
 #include "cli/run_time.hpp"
 #include "plan/report/plan_pictures.hpp"
 #include "simulator/scene/ground_truth.hpp"
-#include "vantage/planner/planning_scene.hpp"
-#include "vantage/planner/shadow_scorer.hpp"
-#include "vantage/planner/view_search.hpp"
-#include "vantage/planner/voxel_scorer.hpp"
-#include "vantage/volume/classify.hpp"
+#include "vantage/planner/advanced/planning_scene.hpp"
+#include "vantage/planner/advanced/shadow_scorer.hpp"
+#include "vantage/planner/advanced/view_search.hpp"
+#include "vantage/planner/advanced/voxel_scorer.hpp"
+#include "vantage/volume/advanced/classify.hpp"
 
 namespace vantage {
 namespace {
@@ -34,7 +34,8 @@ HalfSpheres set_named(const std::string& name, const Box& work_area,
 /// One scene's evaluation: what its methods and sets have in common.
 class SceneRun {
  public:
-  SceneRun(const PlanningCell& cell, const PlanningSettings& settings, const StopToken& stop)
+  SceneRun(const PlanningCell& cell, const PlanningBenchmarkOptions& settings,
+           const StopToken& stop)
       : cell_(cell), settings_(settings), stop_(stop), request_(cell.request) {
     if (settings.voxel_size_m) request_.voxel_size_m = *settings.voxel_size_m;
     request_.servo = settings.servo;
@@ -51,7 +52,8 @@ class SceneRun {
                            .depth = cell_.depth,
                            .voxel_size_m = request_.voxel_size_m},
                           {}};
-    for (const Observer& camera : cell_.world.cameras) result.scene.cameras.push_back(camera.name);
+    for (const DepthCamera& camera : cell_.world.cameras)
+      result.scene.cameras.push_back(camera.name);
     if (!classify_cell(result.scene)) return result;
     for (const std::string& name : settings_.sets) {
       result.scene.sets.push_back(run_set(name, result));
@@ -139,8 +141,8 @@ class SceneRun {
   void find_best_true_gain(SetEvaluation& set) const {
     const std::vector<ViewCandidate> views =
         view_candidates(request_.candidates, request_.work_area);
-    const auto checker =
-        std::make_shared<const ViewChecker>(request_.constraints, *believed_, request_.range);
+    const auto checker = std::make_shared<const ViewValidityChecker>(request_.constraints,
+                                                                     *believed_, request_.range);
     const PinholeCamera camera = camera_at(Pose());
     std::shared_ptr<const ServoRefiner> servo;
     if (request_.servo.iterations > 0) {
@@ -153,7 +155,7 @@ class SceneRun {
     const SearchResult found = ViewSearch(gain, checker, servo, camera, {}).run(views, stop_);
     set.views = views.size();
     set.feasible = std::size_t(
-        std::ranges::count(found.candidates, Rejection::none, &ScoredCandidate::rejected));
+        std::ranges::count(found.candidates, InvalidReason::none, &ScoredCandidate::rejected));
     const ViewPolisher polisher(gain, checker, camera, believed_->middle_of_shadow(),
                                 request_.polish);
     const auto consider = [&](const Pose& pose) {
@@ -186,7 +188,7 @@ class SceneRun {
   }
 
   const PlanningCell& cell_;
-  const PlanningSettings& settings_;
+  const PlanningBenchmarkOptions& settings_;
   const StopToken& stop_;
   PlanRequest request_;
   std::shared_ptr<const StateGrid> grid_;
@@ -196,7 +198,7 @@ class SceneRun {
 
 }  // namespace
 
-EvaluatedScene evaluate_planning(const PlanningCell& cell, const PlanningSettings& settings,
+EvaluatedScene evaluate_planning(const PlanningCell& cell, const PlanningBenchmarkOptions& settings,
                                  const StopToken& stop) {
   return SceneRun(cell, settings, stop).run();
 }

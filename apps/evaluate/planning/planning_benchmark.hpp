@@ -26,7 +26,7 @@ NamedMethod named_method(const std::string& name);
 std::vector<NamedMethod> named_methods(const std::vector<std::string>& names);
 
 /// What `vantage evaluate planning` was asked for.
-struct PlanningSettings {
+struct PlanningBenchmarkOptions {
   std::vector<NamedMethod> methods;  ///< the first is `voxel`
   std::vector<std::string> sets;     ///< "full" first, "production"
   std::vector<double> radii_m{};     ///< of the full set's three half-spheres; the production set
@@ -42,7 +42,7 @@ struct PlanningSettings {
 /// Puts the methods and sets in order; `voxel` is always among them, because it is the measure.
 /// @throws Error bad_input for a name that is none, and one that is there twice.
 void choose(const std::vector<std::string>& methods, const std::vector<std::string>& sets,
-            PlanningSettings& settings);
+            PlanningBenchmarkOptions& settings);
 
 /// One scene with its pictures.
 struct EvaluatedScene {
@@ -54,7 +54,7 @@ struct EvaluatedScene {
 /// the voxel method and against the truth. Runs in the caller's task arena; all but the run times
 /// is the same at any number of threads. Without sense if `stop` was cancelled.
 /// @throws Error as `plan_next_view` does.
-EvaluatedScene evaluate_planning(const PlanningCell& cell, const PlanningSettings& settings,
+EvaluatedScene evaluate_planning(const PlanningCell& cell, const PlanningBenchmarkOptions& settings,
                                  const StopToken& stop);
 
 }  // namespace vantage

@@ -97,7 +97,7 @@ WorldModel with_depth(WorldModel world, const SimulatedScene& scene,
 
 std::string title_of(const PlanningCellName& name, const WorldModel& world, DepthKind kind) {
   std::vector<std::string> cameras;
-  for (const Observer& camera : world.cameras) cameras.push_back(camera.name);
+  for (const DepthCamera& camera : world.cameras) cameras.push_back(camera.name);
   std::string title = fmt::format("{}:{}", name.workcell.stem().string(), fmt::join(cameras, ","));
   if (kind != DepthKind::none) title += "+" + kDepthKinds[std::size_t(kind)];
   return title;
@@ -128,7 +128,7 @@ PlanningCellName planning_cell_name(const std::string& argument) {
 
 std::vector<PinholeCamera> PlanningCell::cameras() const {
   std::vector<PinholeCamera> cameras;
-  for (const Observer& observer : world.cameras) cameras.push_back(observer.camera);
+  for (const DepthCamera& observer : world.cameras) cameras.push_back(observer.camera);
   return cameras;
 }
 

@@ -60,14 +60,14 @@ std::vector<NamedMethod> named_methods(const std::vector<std::string>& names) {
 }
 
 void choose(const std::vector<std::string>& methods, const std::vector<std::string>& sets,
-            PlanningSettings& settings) {
+            PlanningBenchmarkOptions& options) {
   refuse_twice("--candidates", sets);
-  settings.methods = {named_method("voxel")};
+  options.methods = {named_method("voxel")};
   for (NamedMethod& method : named_methods(methods)) {
-    if (method.name != "voxel") settings.methods.push_back(std::move(method));
+    if (method.name != "voxel") options.methods.push_back(std::move(method));
   }
   for (const std::string& set : kSets) {
-    if (std::ranges::find(sets, set) != sets.end()) settings.sets.push_back(set);
+    if (std::ranges::find(sets, set) != sets.end()) options.sets.push_back(set);
   }
 }
 

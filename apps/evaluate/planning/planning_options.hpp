@@ -11,7 +11,7 @@
 namespace vantage {
 
 /// What `vantage evaluate planning` is given.
-struct PlanningArguments {
+struct PlanningCommandOptions {
   std::vector<std::string> scenes;
   std::filesystem::path folder;
   std::vector<std::string> methods{"voxel", "shadowD0", "shadowD3", "shadowD6",
@@ -19,7 +19,7 @@ struct PlanningArguments {
   std::vector<std::string> sets{"full", "production"};
   std::string depth = "none", occluders;
   std::uint64_t seed = 0;
-  PlanningSettings settings;
+  PlanningBenchmarkOptions benchmark;
   bool no_pictures = false, json = false;
   int threads = 0;
 

@@ -14,8 +14,8 @@
 #include "cli/workers.hpp"
 #include "evaluate/reconstruction/evaluation_report.hpp"
 #include "reconstruct/reconstruct_options.hpp"
+#include "vantage/raycore/detail/file.hpp"
 #include "vantage/raycore/error.hpp"
-#include "vantage/raycore/file.hpp"
 #include "workcell/random_objects.hpp"
 
 namespace vantage {
@@ -24,13 +24,13 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-struct EvaluateArguments {
+struct EvaluationCommandOptions {
   fs::path dataset, workcell, folder;
   std::vector<int> images;
   std::vector<std::string> methods = kReconstructionMethods;
   std::string sizes = "2-", subsets = "all";
-  ReconstructArguments how;
-  EvaluationSettings settings;
+  ReconstructCommandOptions how;
+  ReconstructionEvaluationOptions settings;
   bool json = false;
   int threads = 0;
 };
@@ -45,19 +45,19 @@ std::size_t number_of(std::string_view text, const std::string& all) {
 }
 
 /// "3", "2-9" or "2-".
-void read_sizes(const std::string& text, EvaluationSettings& settings) {
+void read_sizes(const std::string& text, ReconstructionEvaluationOptions& settings) {
   const std::size_t dash = text.find('-');
   const std::string_view view = text;
-  settings.least_cameras = number_of(view.substr(0, dash), text);
-  settings.most_cameras = settings.least_cameras;
+  settings.min_cameras = number_of(view.substr(0, dash), text);
+  settings.max_cameras = settings.min_cameras;
   if (dash == std::string::npos) return;
-  settings.most_cameras.reset();
-  if (dash + 1 < text.size()) settings.most_cameras = number_of(view.substr(dash + 1), text);
+  settings.max_cameras.reset();
+  if (dash + 1 < text.size()) settings.max_cameras = number_of(view.substr(dash + 1), text);
 }
 
-EvaluationSettings settings_of(const EvaluateArguments& arguments) {
-  EvaluationSettings settings = arguments.settings;
-  const ReconstructionSettings reconstruction = settings_of(arguments.how);
+ReconstructionEvaluationOptions options_of(const EvaluationCommandOptions& arguments) {
+  ReconstructionEvaluationOptions settings = arguments.settings;
+  const SceneReconstructionOptions reconstruction = options_of(arguments.how);
   settings.observe = reconstruction.observe;
   settings.reconstruct = reconstruction.options;
   settings.covering = arguments.subsets == "covering";
@@ -68,21 +68,21 @@ EvaluationSettings settings_of(const EvaluateArguments& arguments) {
   return settings;
 }
 
-Json config_json(const EvaluateArguments& arguments) {
+Json config_json(const EvaluationCommandOptions& arguments) {
   Json config = config_of(arguments.how);
   config.erase("method");
-  const EvaluationSettings& settings = arguments.settings;
-  const Disturbance& disturbance = settings.disturbance;
+  const ReconstructionEvaluationOptions& settings = arguments.settings;
+  const Perturbation& perturbation = settings.perturbation;
   config.update({{"dataset", arguments.dataset.string()},
                  {"workcell", arguments.workcell.string()},
                  {"images", arguments.images},
                  {"methods", arguments.methods},
                  {"sizes", arguments.sizes},
                  {"subsets", arguments.subsets},
-                 {"noise_px", disturbance.noise_px},
-                 {"drop", disturbance.drop},
-                 {"wrong_ids", disturbance.wrong_ids},
-                 {"seed", disturbance.seed},
+                 {"noise_px", perturbation.noise_px},
+                 {"drop", perturbation.drop},
+                 {"wrong_ids", perturbation.wrong_ids},
+                 {"seed", perturbation.seed},
                  {"trials", settings.trials},
                  {"correct_diameters", settings.correct}});
   return config;
@@ -95,11 +95,11 @@ void write(const fs::path& folder, const Json& json, const std::string& plot) {
   spdlog::info("wrote {} and reconstruction.svg", (folder / "reconstruction.json").string());
 }
 
-ExitCode evaluate(const EvaluateArguments& arguments) {
+ExitCode evaluate(const EvaluationCommandOptions& arguments) {
   const StopToken stop;
-  const Interrupt interrupt({stop});
+  const SignalHandler interrupt({stop});
   Workers workers(arguments.threads);
-  const EvaluationSettings settings = settings_of(arguments);
+  const ReconstructionEvaluationOptions settings = options_of(arguments);
   Workcell workcell = load_workcell(arguments.workcell);
   place_random_objects(workcell);
   const BopScene scene =
@@ -127,25 +127,25 @@ ExitCode evaluate(const EvaluateArguments& arguments) {
   return ExitCode::ok;
 }
 
-void add_disturbance_options(CLI::App& verb, EvaluationSettings& settings) {
-  Disturbance& disturbance = settings.disturbance;
-  verb.add_option("--noise-px", disturbance.noise_px,
+void add_disturbance_options(CLI::App& verb, ReconstructionEvaluationOptions& settings) {
+  Perturbation& perturbation = settings.perturbation;
+  verb.add_option("--noise-px", perturbation.noise_px,
                   "Standard deviation added to what was detected, pixels")
       ->check(number_from_zero());
-  verb.add_option("--drop", disturbance.drop, "Share of the detected features that is lost")
+  verb.add_option("--drop", perturbation.drop, "Share of the detected features that is lost")
       ->check(number_between(0.0, 1.0));
   verb.add_option(
-          "--wrong-ids", disturbance.wrong_ids,
+          "--wrong-ids", perturbation.wrong_ids,
           "Share of the markers, the board's too, that is read as another of the dictionary")
       ->check(number_between(0.0, 1.0));
-  verb.add_option("--seed", disturbance.seed, "Of these; another seed, others")
+  verb.add_option("--seed", perturbation.seed, "Of these; another seed, others")
       ->capture_default_str();
   verb.add_option("--trials", settings.trials, "Disturb each subset so often, each time otherwise")
       ->check(CLI::Range(1, 100000))
       ->capture_default_str();
 }
 
-void add_subset_options(CLI::App& verb, EvaluateArguments& arguments) {
+void add_subset_options(CLI::App& verb, EvaluationCommandOptions& arguments) {
   verb.add_option("--methods", arguments.methods, "Which ones, e.g. svd,pnp")
       ->delimiter(',')
       ->check(CLI::IsMember(kReconstructionMethods))
@@ -168,7 +168,7 @@ void add_subset_options(CLI::App& verb, EvaluateArguments& arguments) {
 void add_evaluate_reconstruction(CLI::App& evaluate_verb, Action& action) {
   CLI::App* verb = evaluate_verb.add_subcommand(
       "reconstruction", "Errors of the methods over all subsets of a recording's cameras");
-  const auto arguments = std::make_shared<EvaluateArguments>();
+  const auto arguments = std::make_shared<EvaluationCommandOptions>();
   verb->add_option("dataset", arguments->dataset, "BOP scene folder")->required();
   verb->add_option("--workcell", arguments->workcell,
                    "Workcell file (YAML) with knowledge_base; of a simulated dataset its own "

@@ -89,31 +89,31 @@ Json camera_json(const EvaluatedCamera& camera) {
           {"rotation_error_deg", scaled(camera.rotation_error_rad, kDegrees)}};
 }
 
-Json verdict_json(const Verdict& verdict, const std::vector<TrueObject>& truth) {
+Json verdict_json(const ReconstructionScore& score, const std::vector<TrueObject>& truth) {
   Json objects = Json::array();
-  for (const ObjectErrors& object : verdict.objects) {
+  for (const ObjectErrors& object : score.objects) {
     objects.push_back({{"object", truth[object.truth].name},
                        {"translation_mm", object.translation_m * kMillimetres},
                        {"rotation_deg", object.rotation_rad * kDegrees},
                        {"mssd_mm", object.mssd_m * kMillimetres}});
   }
-  return {{"true_objects", verdict.true_objects},
-          {"estimates", verdict.estimates},
-          {"found", verdict.found},
-          {"correct", verdict.correct},
-          {"self_consistency_mm2", scaled(verdict.self_consistency_mm2)},
+  return {{"true_objects", score.true_objects},
+          {"estimates", score.estimates},
+          {"found", score.found},
+          {"correct", score.correct},
+          {"self_consistency_mm2", scaled(score.self_consistency_mm2)},
           {"objects", objects}};
 }
 
 Json run_json(const SubsetRun& run, const ReconstructionEvaluation& evaluation) {
-  Json images = Json::array(), verdicts = Json::object();
+  Json images = Json::array(), scores = Json::object();
   for (const std::size_t camera : evaluation.subsets[run.subset]) {
     images.push_back(evaluation.images[camera]);
   }
-  for (std::size_t m = 0; m < run.verdicts.size(); ++m) {
-    verdicts[evaluation.methods[m].name] = verdict_json(run.verdicts[m], evaluation.truth);
+  for (std::size_t m = 0; m < run.scores.size(); ++m) {
+    scores[evaluation.methods[m].name] = verdict_json(run.scores[m], evaluation.truth);
   }
-  return {{"images", images}, {"trial", run.trial}, {"methods", verdicts}};
+  return {{"images", images}, {"trial", run.trial}, {"methods", scores}};
 }
 
 }  // namespace

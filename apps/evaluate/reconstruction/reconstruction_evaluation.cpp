@@ -12,7 +12,7 @@
 namespace vantage {
 namespace {
 
-constexpr std::size_t kMostRuns = 1'000'000;  // their errors are kept, and written
+constexpr std::size_t kMaxRuns = 1'000'000;  // their errors are kept, and written
 
 /// A view that was located, with what it saw of the board, too: a board's marker that is misread
 /// may seem to be an object's.
@@ -59,32 +59,33 @@ std::vector<FeatureKey> board_keys(const Workcell& workcell) {
   return keys;
 }
 
-std::vector<EvaluatedMethod> methods_of(const EvaluationSettings& settings,
+std::vector<EvaluatedMethod> methods_of(const ReconstructionEvaluationOptions& options,
                                         const KnowledgeBase& knowledge) {
   std::vector<EvaluatedMethod> methods;
-  for (const ReconstructionMethod method : settings.methods) {
+  for (const ReconstructionMethod method : options.methods) {
     methods.push_back({kReconstructionMethods[std::size_t(method)],
-                       [method, &settings, &knowledge](std::span<const CameraView> views) {
-                         return reconstruct(method, views, knowledge, settings.reconstruct);
+                       [method, &options, &knowledge](std::span<const CameraView> views) {
+                         return reconstruct(method, views, knowledge, options.reconstruct);
                        }});
   }
   return methods;
 }
 
-std::vector<CameraSubset> subsets_of(const std::vector<CameraView>& views, const Judge& judge,
-                                     const EvaluationSettings& settings) {
-  auto subsets = camera_subsets(views.size(), settings.least_cameras,
-                                settings.most_cameras.value_or(views.size()));
-  if (settings.covering) subsets = covering_subsets(views, judge.truth(), subsets);
+std::vector<CameraSubset> subsets_of(const std::vector<CameraView>& views,
+                                     const ReconstructionEvaluator& evaluator,
+                                     const ReconstructionEvaluationOptions& options) {
+  auto subsets =
+      camera_subsets(views.size(), options.min_cameras, options.max_cameras.value_or(views.size()));
+  if (options.covering) subsets = covering_subsets(views, evaluator.truth(), subsets);
   if (subsets.empty()) {
     throw bad_input("--subsets covering",
                     "no subset of these sizes sees every object that all cameras together see; "
                     "allow more cameras with --sizes, or evaluate all subsets");
   }
-  if (subsets.size() * settings.trials > kMostRuns) {
+  if (subsets.size() * options.trials > kMaxRuns) {
     throw Error(ErrorCode::out_of_resources, "--trials",
                 fmt::format("{} trials of {} subsets are more than {} runs; ask for fewer",
-                            settings.trials, subsets.size(), kMostRuns));
+                            options.trials, subsets.size(), kMaxRuns));
   }
   return subsets;
 }
@@ -118,16 +119,17 @@ void summarise(ReconstructionEvaluation& evaluation) {
 }  // namespace
 
 ReconstructionEvaluation evaluate_reconstruction(const BopScene& scene, const Workcell& workcell,
-                                                 const EvaluationSettings& settings,
+                                                 const ReconstructionEvaluationOptions& options,
                                                  const StopToken& stop) {
-  settings.disturbance.check();
+  options.perturbation.check();
   ReconstructionEvaluation evaluation;
-  const Judge judge(true_objects(workcell, scene, evaluation.files), settings.correct);
-  const ObservedScene observed = observe(scene, workcell, settings.observe, stop);
+  const ReconstructionEvaluator evaluator(true_objects(workcell, scene, evaluation.files),
+                                          options.correct);
+  const ObservedScene observed = observe(scene, workcell, options.observe, stop);
   if (stop.stop_requested()) return evaluation;
   evaluation.files.insert(evaluation.files.end(), observed.files.begin(), observed.files.end());
-  evaluation.truth = judge.truth();
-  evaluation.touching_pairs = judge.touching().size();
+  evaluation.truth = evaluator.truth();
+  evaluation.touching_pairs = evaluator.touching().size();
   for (std::size_t i = 0; i < scene.images.size(); ++i) {
     evaluation.cameras.push_back(
         camera_of(scene.images[i], observed.views[i], observed.locations[i]));
@@ -140,11 +142,11 @@ ReconstructionEvaluation evaluate_reconstruction(const BopScene& scene, const Wo
     views.push_back(one.view);
     evaluation.images.push_back(scene.images[one.image].id);
   }
-  evaluation.subsets = subsets_of(views, judge, settings);
-  const SubsetPlan plan{evaluation.subsets, settings.disturbance, settings.trials,
+  evaluation.subsets = subsets_of(views, evaluator, options);
+  const SubsetPlan plan{evaluation.subsets, options.perturbation, options.trials,
                         readable_keys(workcell), board_keys(workcell)};
-  const auto methods = methods_of(settings, *workcell.knowledge);
-  evaluation.runs = evaluate_subsets(views, judge, methods, plan, stop);
+  const auto methods = methods_of(options, *workcell.knowledge);
+  evaluation.runs = evaluate_subsets(views, evaluator, methods, plan, stop);
   if (stop.stop_requested()) return evaluation;
 
   const std::vector<ScoredImage> images = scored_images(scene, usable);
@@ -152,8 +154,12 @@ ReconstructionEvaluation evaluate_reconstruction(const BopScene& scene, const Wo
   for (const UsableView& one : usable) undisturbed.push_back(observed.views[one.image]);
   for (const EvaluatedMethod& method : methods) {
     const Reconstruction all = method.reconstruct(undisturbed);
-    evaluation.methods.push_back(
-        {method.name, {}, {}, all, estimate_errors(judge, all), bop_scores(judge, all, images)});
+    evaluation.methods.push_back({method.name,
+                                  {},
+                                  {},
+                                  all,
+                                  estimate_errors(evaluator, all),
+                                  bop_scores(evaluator, all, images)});
   }
   summarise(evaluation);
   return evaluation;

@@ -12,14 +12,14 @@
 namespace vantage {
 
 /// What `vantage evaluate reconstruction` was asked for.
-struct EvaluationSettings {
+struct ReconstructionEvaluationOptions {
   std::vector<ReconstructionMethod> methods = {};
   ObserveOptions observe = {};
   ReconstructOptions reconstruct = {};
-  std::size_t least_cameras = 2;
-  std::optional<std::size_t> most_cameras = {};  ///< none: all that are located
-  bool covering = false;                         ///< only subsets that see every object
-  Disturbance disturbance = {};
+  std::size_t min_cameras = 2;
+  std::optional<std::size_t> max_cameras = {};  ///< none: all that are located
+  bool covering = false;                        ///< only subsets that see every object
+  Perturbation perturbation = {};
   std::size_t trials = 1;
   double correct = 0.1;  ///< MSSD in diameters below which an estimate is correct
 };
@@ -57,10 +57,10 @@ struct ReconstructionEvaluation {
 /// subset of the cameras against the truth. Runs in the caller's task arena; the same result at any
 /// number of threads. Without sense if `stop` was cancelled.
 /// @param workcell with its random objects placed: they are the truth.
-/// @throws Error bad_input as `observe`, `true_objects`, `Judge` and `camera_subsets` do, and if no
-/// camera could be located or no subset sees every object.
+/// @throws Error bad_input as `observe`, `true_objects`, `ReconstructionEvaluator` and
+/// `camera_subsets` do, and if no camera could be located or no subset sees every object.
 ReconstructionEvaluation evaluate_reconstruction(const BopScene& scene, const Workcell& workcell,
-                                                 const EvaluationSettings& settings,
+                                                 const ReconstructionEvaluationOptions& options,
                                                  const StopToken& stop);
 
 }  // namespace vantage

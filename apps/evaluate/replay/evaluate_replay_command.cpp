@@ -14,7 +14,7 @@
 #include "metrics/planning/replay_tables.hpp"
 #include "plan/method_options.hpp"
 #include "plan/plan_options.hpp"
-#include "vantage/raycore/file.hpp"
+#include "vantage/raycore/detail/file.hpp"
 
 namespace vantage {
 namespace {
@@ -22,18 +22,18 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-struct ReplayArguments {
+struct ReplayCommandOptions {
   PlanOptions plan;
   std::vector<std::string> methods{"voxel", "mesh", "meshD6"};
   MeshOptions mesh;
-  ReplaySettings settings;
+  ReplayBenchmarkOptions settings;
   fs::path folder;
   bool json = false;
   int threads = 0;
 };
 
-ReplaySettings settings_of(const ReplayArguments& arguments) {
-  ReplaySettings settings = arguments.settings;
+ReplayBenchmarkOptions options_of(const ReplayCommandOptions& arguments) {
+  ReplayBenchmarkOptions settings = arguments.settings;
   settings.methods = named_methods(arguments.methods);
   for (NamedMethod& method : settings.methods) {
     const MeshWeight named = method.options.mesh.weight;
@@ -43,7 +43,7 @@ ReplaySettings settings_of(const ReplayArguments& arguments) {
   return settings;
 }
 
-Json config_json(const ReplayArguments& arguments, const PlanInput& input) {
+Json config_json(const ReplayCommandOptions& arguments, const PlanInput& input) {
   PlanRequest request = input.request;
   request.method = {.name = "mesh", .mesh = arguments.mesh};
   request.method.mesh.visibility.noise = request.volume.noise;
@@ -52,7 +52,7 @@ Json config_json(const ReplayArguments& arguments, const PlanInput& input) {
   config.update({{"methods", arguments.methods},
                  {"pairs", arguments.settings.pairs},
                  {"seed", arguments.settings.seed},
-                 {"least_seen", arguments.settings.least_seen},
+                 {"least_seen", arguments.settings.min_seen},
                  {"work_area", all["work_area"]},
                  {"voxel_size_m", request.voxel_size_m},
                  {"volume", all["volume"]},
@@ -68,10 +68,10 @@ std::string text_of(const ReplayEvaluation& evaluation) {
   return text;
 }
 
-ExitCode evaluate(const ReplayArguments& arguments) {
+ExitCode evaluate(const ReplayCommandOptions& arguments) {
   const StopToken stop;
-  const Interrupt interrupt({stop});
-  const ReplaySettings settings = settings_of(arguments);
+  const SignalHandler interrupt({stop});
+  const ReplayBenchmarkOptions settings = options_of(arguments);
   Workers workers(arguments.threads);
   PlanInput input = workers.execute([&] { return load_plan_input(arguments.plan, stop); });
   for (const std::string& warning : input.warnings) spdlog::warn("{}", warning);
@@ -92,8 +92,8 @@ ExitCode evaluate(const ReplayArguments& arguments) {
   return ExitCode::ok;
 }
 
-void add_replay_options(CLI::App& verb, ReplayArguments& arguments) {
-  ReplaySettings& settings = arguments.settings;
+void add_replay_options(CLI::App& verb, ReplayCommandOptions& arguments) {
+  ReplayBenchmarkOptions& settings = arguments.settings;
   verb.add_option("--methods", arguments.methods,
                   "Methods, e.g. voxel,mesh,shadowD6; D and a number is the power of the depth")
       ->delimiter(',')
@@ -103,7 +103,7 @@ void add_replay_options(CLI::App& verb, ReplayArguments& arguments) {
       ->capture_default_str();
   verb.add_option("--seed", settings.seed, "Of their choice; another seed, other pairs")
       ->capture_default_str();
-  verb.add_option("--least-seen", settings.least_seen,
+  verb.add_option("--least-seen", settings.min_seen,
                   "Frames of a pair show at least this share of the work area each; all others "
                   "may be picked")
       ->check(number_between(0.0, 1.0))
@@ -117,7 +117,7 @@ void add_evaluate_replay(CLI::App& evaluate_verb, Action& action) {
       "replay",
       "Of a recording from many known poses: plan from two frames with the others as candidates, "
       "and see what the picked frame really reveals");
-  const auto arguments = std::make_shared<ReplayArguments>();
+  const auto arguments = std::make_shared<ReplayCommandOptions>();
   add_input_options(*verb, arguments->plan);
   add_replay_options(*verb, *arguments);
   add_mesh_options(*verb, arguments->mesh);

@@ -6,15 +6,15 @@
 #include <algorithm>
 
 #include "metrics/reconstruction/frame_pairs.hpp"
-#include "vantage/planner/voxel_scorer.hpp"
+#include "vantage/planner/advanced/voxel_scorer.hpp"
 #include "vantage/raycore/error.hpp"
-#include "vantage/volume/classify.hpp"
+#include "vantage/volume/advanced/classify.hpp"
 
 namespace vantage {
 namespace {
 
-void check_frames(const std::vector<Observer>& frames) {
-  for (const Observer& frame : frames) {
+void check_frames(const std::vector<DepthCamera>& frames) {
+  for (const DepthCamera& frame : frames) {
     if (frame.depth != nullptr) continue;
     throw bad_input(fmt::format("image {}", frame.name),
                     "it has no depth image, and what it really reveals is measured by that; "
@@ -29,7 +29,7 @@ void check_frames(const std::vector<Observer>& frames) {
 /// One replay: the recording, and how it is looked at.
 class Replay {
  public:
-  Replay(const PlanInput& input, const ReplaySettings& settings, const StopToken& stop)
+  Replay(const PlanInput& input, const ReplayBenchmarkOptions& settings, const StopToken& stop)
       : input_(input),
         frames_(input.world.cameras),
         settings_(settings),
@@ -74,14 +74,14 @@ class Replay {
     });
     std::vector<std::size_t> usable;
     for (std::size_t i = 0; i < shown.size(); ++i) {
-      if (shown[i] > 0 && shown[i] >= settings_.least_seen) usable.push_back(i);
+      if (shown[i] > 0 && shown[i] >= settings_.min_seen) usable.push_back(i);
     }
     if (usable.size() >= 2 || stop_.stop_requested()) return usable;
     throw bad_input("work area",
                     fmt::format("of {} frames, {} show at least {:.3g} % of it (the most that one "
                                 "shows: {:.3g} %); expected 2: is the box in the recording's world "
                                 "frame, in metres? else lower --least-seen",
-                                frames_.size(), usable.size(), 100 * settings_.least_seen,
+                                frames_.size(), usable.size(), 100 * settings_.min_seen,
                                 100 * std::ranges::max(shown)));
   }
 
@@ -99,7 +99,7 @@ class Replay {
     const VoxelScorer voxels(scene);
     tbb::parallel_for(std::size_t(0), others.size(), [&](std::size_t i) {
       if (stop_.stop_requested()) return;
-      const Observer& frame = frames_[others[i]];
+      const DepthCamera& frame = frames_[others[i]];
       const std::uint64_t gain = before->count(VoxelState::shadow) -
                                  shadow_left_by(seen_by({pair[0], pair[1], others[i]}));
       result.views[i] = {
@@ -129,15 +129,15 @@ class Replay {
   }
 
   const PlanInput& input_;
-  const std::vector<Observer>& frames_;
-  const ReplaySettings& settings_;
+  const std::vector<DepthCamera>& frames_;
+  const ReplayBenchmarkOptions& settings_;
   const StopToken& stop_;
   GridGeometry geometry_;
 };
 
 }  // namespace
 
-ReplayEvaluation evaluate_replay(const PlanInput& input, const ReplaySettings& settings,
+ReplayEvaluation evaluate_replay(const PlanInput& input, const ReplayBenchmarkOptions& settings,
                                  const StopToken& stop) {
   check_frames(input.world.cameras);
   return Replay(input, settings, stop).run();

@@ -11,11 +11,11 @@
 namespace vantage {
 
 /// What `vantage evaluate replay` was asked for.
-struct ReplaySettings {
+struct ReplayBenchmarkOptions {
   std::vector<NamedMethod> methods;
   std::size_t pairs = 20;
   std::uint64_t seed = 0;
-  double least_seen = 0.1;  ///< a frame of a pair shows at least this share of the work area
+  double min_seen = 0.1;  ///< a frame of a pair shows at least this share of the work area
 };
 
 /// Plans from pairs of a recording's frames, with the others as candidates, and folds every other
@@ -32,7 +32,7 @@ struct ReplaySettings {
 /// and the volume options count.
 /// @throws Error bad_input for a frame without depth, fewer than three frames, and fewer than two
 /// that show enough of the work area; as `classify` and `make_view_scorer` do.
-ReplayEvaluation evaluate_replay(const PlanInput& input, const ReplaySettings& settings,
+ReplayEvaluation evaluate_replay(const PlanInput& input, const ReplayBenchmarkOptions& settings,
                                  const StopToken& stop = {});
 
 }  // namespace vantage

@@ -56,7 +56,7 @@ Json means_json(const ReplayEvaluation& evaluation) {
                     {"predicted_gain_m3", value(means.predicted_gain_m3)},
                     {"real_gain_m3", value(means.real_gain_m3)},
                     {"share_of_best", value(means.share_of_best)},
-                    {"least_share_of_best", value(means.least_share_of_best)},
+                    {"least_share_of_best", value(means.min_share_of_best)},
                     {"times_mean", value(means.times_mean)},
                     {"rank", value(means.rank)}});
   }

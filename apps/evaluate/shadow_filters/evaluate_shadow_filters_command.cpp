@@ -13,20 +13,19 @@
 namespace vantage {
 namespace {
 
-struct FilterArguments {
+struct ShadowFilterCommandOptions {
   std::vector<std::string> scenes;
   std::string holes = "fill";
   std::uint64_t seed = 0;
-  ShadowFilterSettings settings;
+  ShadowFilterOptions settings;
   bool json = false;
   int threads = 0;
 };
 
-std::vector<PlanningCell> load_cells(const FilterArguments& arguments) {
+std::vector<PlanningCell> load_cells(const ShadowFilterCommandOptions& options) {
   std::vector<PlanningCell> cells;
-  for (const std::string& scene : arguments.scenes) {
-    cells.push_back(
-        load_planning_cell(planning_cell_name(scene), DepthKind::noisy, arguments.seed));
+  for (const std::string& scene : options.scenes) {
+    cells.push_back(load_planning_cell(planning_cell_name(scene), DepthKind::noisy, options.seed));
   }
   return cells;
 }
@@ -40,13 +39,13 @@ std::string text_of(const ShadowFilterEvaluation& evaluation) {
 }
 
 nlohmann::ordered_json json_of(const ShadowFilterEvaluation& evaluation,
-                               const FilterArguments& arguments,
+                               const ShadowFilterCommandOptions& options,
                                const std::vector<PlanningCell>& cells) {
   nlohmann::ordered_json json = to_json(evaluation);
-  json["config"] = {{"scenes", arguments.scenes},
-                    {"seed", arguments.seed},
-                    {"step_px", arguments.settings.step_px},
-                    {"holes", arguments.holes}};
+  json["config"] = {{"scenes", options.scenes},
+                    {"seed", options.seed},
+                    {"step_px", options.settings.step_px},
+                    {"holes", options.holes}};
   std::vector<std::filesystem::path> files;
   for (const PlanningCell& cell : cells) {
     files.insert(files.end(), cell.files.begin(), cell.files.end());
@@ -55,14 +54,14 @@ nlohmann::ordered_json json_of(const ShadowFilterEvaluation& evaluation,
   return json;
 }
 
-ExitCode evaluate(FilterArguments arguments) {
+ExitCode evaluate(ShadowFilterCommandOptions options) {
   const StopToken stop;
-  const Interrupt interrupt({stop});
-  ShadowFilterSettings& settings = arguments.settings;
-  settings.holes = arguments.holes == "fill" ? DepthHoles::fill : DepthHoles::unknown;
+  const SignalHandler interrupt({stop});
+  ShadowFilterOptions& settings = options.settings;
+  settings.holes = options.holes == "fill" ? DepthHoles::fill : DepthHoles::unknown;
   ShadowFilterEvaluation evaluation{settings.voxel_size_m, filters_of(settings), {}};
-  Workers workers(arguments.threads);
-  const std::vector<PlanningCell> cells = workers.execute([&] { return load_cells(arguments); });
+  Workers workers(options.threads);
+  const std::vector<PlanningCell> cells = workers.execute([&] { return load_cells(options); });
   workers.execute([&] {
     const ProgressLine progress("evaluating", stop);
     for (const PlanningCell& cell : cells) {
@@ -71,13 +70,13 @@ ExitCode evaluate(FilterArguments arguments) {
     }
   });
   if (stop.stop_requested()) return ExitCode::cancelled;
-  std::cout << (arguments.json ? json_of(evaluation, arguments, cells).dump(1) + "\n"
-                               : text_of(evaluation))
+  std::cout << (options.json ? json_of(evaluation, options, cells).dump(1) + "\n"
+                             : text_of(evaluation))
             << std::flush;
   return ExitCode::ok;
 }
 
-void add_filter_options(CLI::App& verb, ShadowFilterSettings& settings) {
+void add_filter_options(CLI::App& verb, ShadowFilterOptions& settings) {
   verb.add_option("--offsets", settings.offsets_sigmas,
                   "How far the visibility mesh moves away from its camera, in σ of the depth's "
                   "noise, e.g. 0,1,2,3")
@@ -89,24 +88,24 @@ void add_filter_options(CLI::App& verb, ShadowFilterSettings& settings) {
       ->delimiter(',')
       ->check(CLI::Range(0, 64))
       ->capture_default_str();
-  verb.add_option("--least-cm3", settings.least_cm3,
+  verb.add_option("--least-cm3", settings.min_cm3,
                   "Regions of shadow smaller than this are removed; 0: none")
       ->delimiter(',')
       ->check(number_between(0.0, 1e9))
       ->capture_default_str();
 }
 
-void add_mesh_options(CLI::App& verb, FilterArguments& arguments) {
-  verb.add_option("--step", arguments.settings.step_px,
+void add_mesh_options(CLI::App& verb, ShadowFilterCommandOptions& options) {
+  verb.add_option("--step", options.settings.step_px,
                   "Every so many pixels a vertex of the visibility mesh")
       ->check(CLI::Range(1, 64))
       ->capture_default_str();
-  verb.add_option("--holes", arguments.holes,
+  verb.add_option("--holes", options.holes,
                   "What becomes of pixels without a depth: fill them from around, or leave them "
                   "unknown")
       ->check(CLI::IsMember({"fill", "unknown"}))
       ->capture_default_str();
-  verb.add_option("--voxel-size", arguments.settings.voxel_size_m, "Edge of a voxel, metres")
+  verb.add_option("--voxel-size", options.settings.voxel_size_m, "Edge of a voxel, metres")
       ->check(positive_number())
       ->capture_default_str();
 }
@@ -118,19 +117,19 @@ void add_evaluate_shadow_filters(CLI::App& evaluate_verb, Action& action) {
       "shadow-filters",
       "Ways to be rid of the false shadow that noisy depth makes, on simulated workcells: "
       "precision and recall of the shadow's volume against what is truly hidden");
-  const auto arguments = std::make_shared<FilterArguments>();
-  verb->add_option("scenes", arguments->scenes,
+  const auto options = std::make_shared<ShadowFilterCommandOptions>();
+  verb->add_option("scenes", options->scenes,
                    "Workcell files, each with the cameras to use and their depth images: "
                    "FILE[:CAMERA,...][+ideal|+noisy], e.g. wall.yaml:side; noisy without a word")
       ->required();
-  add_filter_options(*verb, arguments->settings);
-  add_mesh_options(*verb, *arguments);
-  verb->add_option("--seed", arguments->seed, "Of the depth images' noise")->capture_default_str();
-  verb->add_flag("--json", arguments->json, "Print JSON instead of tables");
-  verb->add_option("--threads", arguments->threads, "Threads to use (0: all)")
+  add_filter_options(*verb, options->settings);
+  add_mesh_options(*verb, *options);
+  verb->add_option("--seed", options->seed, "Of the depth images' noise")->capture_default_str();
+  verb->add_flag("--json", options->json, "Print JSON instead of tables");
+  verb->add_option("--threads", options->threads, "Threads to use (0: all)")
       ->check(CLI::Range(0, 1024));
   verb->parse_complete_callback(
-      [&action, arguments] { action = [=] { return evaluate(*arguments); }; });
+      [&action, options] { action = [=] { return evaluate(*options); }; });
 }
 
 }  // namespace vantage

@@ -2,15 +2,16 @@
 
 #include "simulator/scene/ground_truth.hpp"
 #include "vantage/raycore/error.hpp"
-#include "vantage/volume/carve.hpp"
-#include "vantage/volume/shadow_filter.hpp"
+#include "vantage/volume/advanced/carve.hpp"
+#include "vantage/volume/advanced/shadow_filter.hpp"
 
 namespace vantage {
 namespace {
 
-std::vector<DepthLattice> lattices_of(const PlanningCell& cell, const VisibilityOptions& options) {
-  std::vector<DepthLattice> lattices;
-  for (const Observer& observer : cell.world.cameras) {
+std::vector<VisibilityMesh> lattices_of(const PlanningCell& cell,
+                                        const VisibilityOptions& options) {
+  std::vector<VisibilityMesh> lattices;
+  for (const DepthCamera& observer : cell.world.cameras) {
     if (observer.depth == nullptr) {
       throw bad_input(cell.name, "camera \"" + observer.name +
                                      "\" has no depth image; visibility meshes are made of them. "
@@ -28,22 +29,22 @@ WorldModel known_of(const PlanningCell& cell) {
 }
 
 std::shared_ptr<const StateGrid> filtered(const StateGrid& grid, const ShadowFilter& filter) {
-  return large_shadow(*opened_shadow(grid, filter.opening_voxels), filter.least_m3);
+  return remove_small_components(*morphological_open(grid, filter.opening_voxels), filter.min_m3);
 }
 
 }  // namespace
 
-std::vector<ShadowFilter> filters_of(const ShadowFilterSettings& settings) {
+std::vector<ShadowFilter> filters_of(const ShadowFilterOptions& settings) {
   std::vector<ShadowFilter> filters;
   for (const double offset : settings.offsets_sigmas)
     for (const int opening : settings.openings_voxels)
-      for (const double least_cm3 : settings.least_cm3)
-        filters.push_back({offset, opening, 1e-6 * least_cm3});
+      for (const double min_cm3 : settings.min_cm3)
+        filters.push_back({offset, opening, 1e-6 * min_cm3});
   return filters;
 }
 
-FilteredScene evaluate_shadow_filters(const PlanningCell& cell,
-                                      const ShadowFilterSettings& settings, const StopToken& stop) {
+FilteredScene evaluate_shadow_filters(const PlanningCell& cell, const ShadowFilterOptions& settings,
+                                      const StopToken& stop) {
   const auto geometry = GridGeometry::covering(cell.request.work_area, settings.voxel_size_m);
   const GroundTruth truth(cell.scene, cell.cameras(), geometry);
   const TrueShadow shadow(truth.grid());

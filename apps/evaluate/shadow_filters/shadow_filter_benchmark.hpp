@@ -7,29 +7,29 @@
 #include "evaluate/planning/planning_cell.hpp"
 #include "metrics/planning/shadow_filter_evaluation.hpp"
 #include "vantage/raycore/stop_token.hpp"
-#include "vantage/volume/visibility.hpp"
+#include "vantage/volume/advanced/visibility.hpp"
 
 namespace vantage {
 
 /// What `vantage evaluate shadow-filters` was asked for: every combination is a filter.
-struct ShadowFilterSettings {
+struct ShadowFilterOptions {
   std::vector<double> offsets_sigmas{0, 1, 2, 3, 4, 6};
   std::vector<int> openings_voxels{0, 1, 2};
-  std::vector<double> least_cm3{0, 1, 10};
+  std::vector<double> min_cm3{0, 1, 10};
   int step_px = 8;
   DepthHoles holes = DepthHoles::fill;
   double voxel_size_m = 0.0047;
 };
 
 /// The combinations, in the order of the lists: no filter first, if they say so.
-std::vector<ShadowFilter> filters_of(const ShadowFilterSettings& settings);
+std::vector<ShadowFilter> filters_of(const ShadowFilterOptions& options);
 
 /// Carves the cell by what its cameras measured, filters the shadow in every way, and holds it
 /// against what truly stands there. Runs in the caller's task arena; the same at any number of
 /// threads. Without sense if `stop` was cancelled.
 /// @throws Error bad_input for a cell without depth images, and as `visibility_lattice`, `carve`
 /// and the filters do.
-FilteredScene evaluate_shadow_filters(const PlanningCell& cell,
-                                      const ShadowFilterSettings& settings, const StopToken& stop);
+FilteredScene evaluate_shadow_filters(const PlanningCell& cell, const ShadowFilterOptions& options,
+                                      const StopToken& stop);
 
 }  // namespace vantage

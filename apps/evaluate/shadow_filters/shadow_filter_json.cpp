@@ -13,7 +13,7 @@ Json filter_json(const ShadowFilterEvaluation& evaluation, std::size_t i) {
   const FilterMeans means = means_of(evaluation, i);
   return {{"offset_sigmas", filter.offset_sigmas},
           {"opening_voxels", filter.opening_voxels},
-          {"least_m3", filter.least_m3},
+          {"least_m3", filter.min_m3},
           {"mean",
            {{"precision", or_null(means.precision)},
             {"recall", or_null(means.recall)},

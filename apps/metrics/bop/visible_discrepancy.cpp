@@ -4,8 +4,8 @@
 
 #include <cmath>
 
+#include "vantage/raycore/advanced/scene_builder.hpp"
 #include "vantage/raycore/error.hpp"
-#include "vantage/raycore/scene_builder.hpp"
 
 namespace vantage {
 namespace {

@@ -168,10 +168,10 @@ std::string run_time_chart(const PlanningEvaluation& evaluation, const std::stri
 
 std::string planning_page(const PlanningEvaluation& evaluation,
                           const std::vector<PagePicture>& pictures,
-                          const std::vector<std::string>& settings) {
+                          const std::vector<std::string>& options) {
   std::string body = "<h1>View planning: the thesis’ chapter 9 on simulated scenes</h1>\n";
   body += paragraph("lead", headline(evaluation));
-  for (const std::string& line : settings) body += paragraph("note", line);
+  for (const std::string& line : options) body += paragraph("note", line);
   for (const SceneEvaluation& scene : evaluation.scenes) {
     for (const std::string& remark : remarks_on(scene)) body += paragraph("remark", remark);
   }

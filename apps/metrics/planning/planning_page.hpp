@@ -19,10 +19,10 @@ struct PagePicture {
 std::string run_time_chart(const PlanningEvaluation& evaluation, const std::string& set);
 
 /// The whole evaluation as one HTML page that needs nothing else: tables, charts, pictures.
-/// @param settings for people: how it was run.
+/// @param options for people: how it was run.
 std::string planning_page(const PlanningEvaluation& evaluation,
                           const std::vector<PagePicture>& pictures,
-                          const std::vector<std::string>& settings);
+                          const std::vector<std::string>& options);
 
 /// RFC 4648, with padding.
 std::string base64(const std::string& bytes);

@@ -24,14 +24,14 @@ std::optional<PickWorth> worth_of(const ReplayPair& pair, std::size_t method) {
 }
 
 std::optional<ReplayMeans> replay_means(const ReplayEvaluation& evaluation, std::size_t method) {
-  ReplayMeans sums{.least_share_of_best = 1};
+  ReplayMeans sums{.min_share_of_best = 1};
   for (const ReplayPair& pair : evaluation.pairs) {
     const auto worth = worth_of(pair, method);
     if (!worth) continue;
     const ReplayView& pick = pair.views[pair.picks[method]];
     ++sums.pairs;
     sums.share_of_best += worth->share_of_best;
-    sums.least_share_of_best = std::min(sums.least_share_of_best, worth->share_of_best);
+    sums.min_share_of_best = std::min(sums.min_share_of_best, worth->share_of_best);
     sums.times_mean += worth->times_mean;
     sums.rank += double(worth->rank);
     sums.predicted_gain_m3 += pick.predicted_gain_m3;

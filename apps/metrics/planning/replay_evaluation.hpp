@@ -50,7 +50,7 @@ std::optional<PickWorth> worth_of(const ReplayPair& pair, std::size_t method);
 /// Means over the pairs of which there is something to say.
 struct ReplayMeans {
   std::size_t pairs = 0;
-  double share_of_best = 0, least_share_of_best = 0, times_mean = 0, rank = 0;
+  double share_of_best = 0, min_share_of_best = 0, times_mean = 0, rank = 0;
   double predicted_gain_m3 = 0, real_gain_m3 = 0;
 };
 

@@ -48,7 +48,7 @@ TableRow means_row(const ReplayEvaluation& evaluation, std::size_t method) {
   const auto means = replay_means(evaluation, method);
   if (!means) return {{name, kNone, kNone, kNone, kNone, kNone, kNone}};
   return {{name, m3_text(means->predicted_gain_m3), m3_text(means->real_gain_m3),
-           percent_text(means->share_of_best), percent_text(means->least_share_of_best),
+           percent_text(means->share_of_best), percent_text(means->min_share_of_best),
            factor_text(means->times_mean), fmt::format("{:.1f}", means->rank)}};
 }
 

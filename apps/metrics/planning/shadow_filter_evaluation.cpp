@@ -23,7 +23,7 @@ struct Mean {
 
 std::vector<std::string> filter_cells(const ShadowFilter& filter) {
   return {fmt::format("{:g}", filter.offset_sigmas), fmt::format("{}", filter.opening_voxels),
-          cm3_text(filter.least_m3)};
+          cm3_text(filter.min_m3)};
 }
 
 ReportTable means_table(const ShadowFilterEvaluation& evaluation, std::size_t best) {

@@ -14,7 +14,7 @@ namespace vantage {
 struct ShadowFilter {
   double offset_sigmas = 0;  ///< of the visibility mesh's surface
   int opening_voxels = 0;    ///< the radius of the opening
-  double least_m3 = 0;       ///< what is left in smaller regions goes
+  double min_m3 = 0;         ///< what is left in smaller regions goes
 };
 
 /// What the filters make of one scene; as many scores as there are filters.

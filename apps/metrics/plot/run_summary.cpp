@@ -7,11 +7,12 @@ namespace vantage {
 namespace {
 
 /// A run's mean of one of the objects' errors is appended; nothing where nothing was matched.
-void append_mean(const Verdict& verdict, double ObjectErrors::*error, std::vector<double>& values) {
-  if (verdict.objects.empty()) return;
+void append_mean(const ReconstructionScore& score, double ObjectErrors::*error,
+                 std::vector<double>& values) {
+  if (score.objects.empty()) return;
   double sum = 0;
-  for (const ObjectErrors& object : verdict.objects) sum += object.*error;
-  values.push_back(sum / double(verdict.objects.size()));
+  for (const ObjectErrors& object : score.objects) sum += object.*error;
+  values.push_back(sum / double(score.objects.size()));
 }
 
 std::optional<double> share(std::size_t part, std::size_t whole) {
@@ -42,17 +43,17 @@ RunSummary summary_of(std::span<const SubsetRun* const> runs, std::size_t method
   summary.runs = runs.size();
   std::size_t found_at = 0, to_find_at = 0;
   for (const SubsetRun* run : runs) {
-    const Verdict& verdict = run->verdicts[method];
-    append_mean(verdict, &ObjectErrors::translation_m, translations);
-    append_mean(verdict, &ObjectErrors::rotation_rad, rotations);
-    append_mean(verdict, &ObjectErrors::mssd_m, mssds);
-    if (verdict.self_consistency_mm2) consistencies.push_back(*verdict.self_consistency_mm2);
-    summary.true_objects += verdict.true_objects;
-    summary.estimates += verdict.estimates;
-    summary.found += verdict.found;
-    summary.correct += verdict.correct;
-    for (const std::size_t found : verdict.found_at) found_at += found;
-    to_find_at += verdict.found_at.size() * verdict.true_objects;
+    const ReconstructionScore& score = run->scores[method];
+    append_mean(score, &ObjectErrors::translation_m, translations);
+    append_mean(score, &ObjectErrors::rotation_rad, rotations);
+    append_mean(score, &ObjectErrors::mssd_m, mssds);
+    if (score.self_consistency_mm2) consistencies.push_back(*score.self_consistency_mm2);
+    summary.true_objects += score.true_objects;
+    summary.estimates += score.estimates;
+    summary.found += score.found;
+    summary.correct += score.correct;
+    for (const std::size_t found : score.found_at) found_at += found;
+    to_find_at += score.found_at.size() * score.true_objects;
   }
   summary.translation_m = spread_of(std::move(translations));
   summary.rotation_rad = spread_of(std::move(rotations));

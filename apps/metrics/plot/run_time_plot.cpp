@@ -15,8 +15,8 @@ namespace {
 
 constexpr double kWidth = 900, kLeft = 80, kRight = 30, kTop = 118;
 constexpr double kFrameWidth = kWidth - kLeft - kRight, kRatiosHeight = 306;
-constexpr double kLeastHead = 34;  // room above the highest ratio
-constexpr double kLabel = 12;      // from a mark's middle to its number's
+constexpr double kMinHead = 34;  // room above the highest ratio
+constexpr double kLabel = 12;    // from a mark's middle to its number's
 constexpr MarkCell kCell{.left = 6, .right = 17, .height = 12.5};
 constexpr double kKeyTop = 66, kKeyLine = 20, kKeyColumns = 3;
 
@@ -64,7 +64,7 @@ struct RatioAxis {
 struct Frame {
   PlotAxis times;
   RatioAxis ratios;
-  double head = kLeastHead;
+  double head = kMinHead;
 
   double x(double seconds) const { return kLeft + kFrameWidth * times.share(seconds); }
   double y(double ratio) const {

@@ -9,8 +9,8 @@
 namespace vantage {
 namespace {
 
-constexpr double kLeastVisible = 0.1;  // BOP's visib_gt_min
-constexpr double kDelta = 0.015;       // metres; BOP's for its challenge
+constexpr double kMinVisible = 0.1;  // BOP's visib_gt_min
+constexpr double kDelta = 0.015;     // metres; BOP's for its challenge
 
 /// Recalled targets of one image: over all thresholds, and misalignments.
 struct ImageScore {
@@ -20,16 +20,17 @@ struct ImageScore {
 /// One image, with all that its errors are made of.
 class ImageJudge {
  public:
-  ImageJudge(const Judge& judge, const Reconstruction& reconstruction, const ScoredImage& image)
-      : judge_(judge), estimates_(reconstruction.objects), image_(image) {
+  ImageJudge(const ReconstructionEvaluator& evaluator, const Reconstruction& reconstruction,
+             const ScoredImage& image)
+      : evaluator_(evaluator), estimates_(reconstruction.objects), image_(image) {
     const Pose T_cam_world = image.T_world_cam.inverse();
     const DepthImage nothing_hides(image.camera.width, image.camera.height);
-    for (const TrueObject& object : judge.truth()) {
+    for (const TrueObject& object : evaluator.truth()) {
       truth_poses_.push_back(T_cam_world * object.T_world_object);
       truth_views_.push_back(view_of(*object.type->mesh, truth_poses_.back(), image.camera));
       const DepthImage& depth = image.depth ? *image.depth : nothing_hides;
       targets_.push_back(visible_fraction(truth_views_.back(), depth, image.camera, kDelta) >=
-                         kLeastVisible);
+                         kMinVisible);
     }
     for (const ReconstructedObject& estimate : estimates_) {
       estimate_poses_.push_back(T_cam_world * estimate.T_world_object);
@@ -41,11 +42,11 @@ class ImageJudge {
     ImageScore score{std::size_t(std::ranges::count(targets_, true))};
     const double pixels = 100.0 * image_.camera.width / 640;  // 0.05 of them are 5 px, for 640
     score.mssd = recalled(errors([&](std::size_t e, std::size_t t) {
-      const ErrorModel& model = judge_.model_of(t);
+      const ErrorModel& model = evaluator_.model_of(t);
       return mssd_m(model, estimate_poses_[e], truth_poses_[t]) / model.diameter_m;
     }));
     score.mspd = recalled(errors([&](std::size_t e, std::size_t t) {
-      return mspd_px(judge_.model_of(t), estimate_poses_[e], truth_poses_[t], image_.camera) /
+      return mspd_px(evaluator_.model_of(t), estimate_poses_[e], truth_poses_[t], image_.camera) /
              pixels;
     }));
     if (image_.depth) score.vsd = recalled_by_vsd();
@@ -60,7 +61,7 @@ class ImageJudge {
     matrix.setConstant(kInfinite);
     for (std::size_t e = 0; e < estimates_.size(); ++e) {
       for (std::size_t t = 0; t < targets_.size(); ++t) {
-        if (!targets_[t] || estimates_[e].type->name != judge_.truth()[t].type->name) continue;
+        if (!targets_[t] || estimates_[e].type->name != evaluator_.truth()[t].type->name) continue;
         matrix(Eigen::Index(e), Eigen::Index(t)) = error(e, t);
       }
     }
@@ -85,7 +86,7 @@ class ImageJudge {
         const auto at = std::pair(Eigen::Index(e), Eigen::Index(t));
         if (of_tau[0](at.first, at.second) == kInfinite) continue;
         const std::vector<double> of_pair = vsd(view, truth_views_[t], *image_.depth, image_.camera,
-                                                judge_.model_of(t).diameter_m, options);
+                                                evaluator_.model_of(t).diameter_m, options);
         for (std::size_t i = 0; i < of_tau.size(); ++i) of_tau[i](at.first, at.second) = of_pair[i];
       }
     }
@@ -94,7 +95,7 @@ class ImageJudge {
     return sum;
   }
 
-  const Judge& judge_;
+  const ReconstructionEvaluator& evaluator_;
   const std::vector<ReconstructedObject>& estimates_;
   const ScoredImage& image_;
   std::vector<Pose> truth_poses_, estimate_poses_;  // T_cam_object
@@ -105,16 +106,16 @@ class ImageJudge {
 
 }  // namespace
 
-std::vector<EstimateErrors> estimate_errors(const Judge& judge,
+std::vector<EstimateErrors> estimate_errors(const ReconstructionEvaluator& evaluator,
                                             const Reconstruction& reconstruction) {
   std::vector<EstimateErrors> errors;
-  const auto matches = judge.matches(reconstruction);
+  const auto matches = evaluator.matches(reconstruction);
   for (std::size_t e = 0; e < matches.size(); ++e) {
     if (!matches[e]) continue;
     const std::size_t t = matches[e]->truth;
-    const ErrorModel& model = judge.model_of(t);
+    const ErrorModel& model = evaluator.model_of(t);
     const Pose& estimate = reconstruction.objects[e].T_world_object;
-    const Pose& truth = judge.truth()[t].T_world_object;
+    const Pose& truth = evaluator.truth()[t].T_world_object;
     errors.push_back({e, t, translation_error_m(estimate, truth),
                       rotation_error_rad(estimate, truth), add_m(model, estimate, truth),
                       add_s_m(model, estimate, truth), mssd_m(model, estimate, truth)});
@@ -122,11 +123,12 @@ std::vector<EstimateErrors> estimate_errors(const Judge& judge,
   return errors;
 }
 
-std::optional<BopScores> bop_scores(const Judge& judge, const Reconstruction& reconstruction,
+std::optional<BopScores> bop_scores(const ReconstructionEvaluator& evaluator,
+                                    const Reconstruction& reconstruction,
                                     std::span<const ScoredImage> images) {
   std::vector<ImageScore> of_image(images.size());
   tbb::parallel_for(std::size_t(0), images.size(), [&](std::size_t i) {
-    of_image[i] = ImageJudge(judge, reconstruction, images[i]).score();
+    of_image[i] = ImageJudge(evaluator, reconstruction, images[i]).score();
   });
   ImageScore sum;
   std::size_t with_depth = 0;

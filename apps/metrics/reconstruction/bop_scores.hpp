@@ -17,15 +17,16 @@ struct ScoredImage {
   std::shared_ptr<const DepthImage> depth;  ///< null: VSD is not measured, and nothing hides
 };
 
-/// BOP's errors of an estimate, against the true object that it stands for (`Judge::matches`).
-/// Those of `ObjectErrors` have symmetries taken out; of these, MSSD alone knows of them.
+/// BOP's errors of an estimate, against the true object that it stands for
+/// (`ReconstructionEvaluator::matches`). Those of `ObjectErrors` have symmetries taken out; of
+/// these, MSSD alone knows of them.
 struct EstimateErrors {
   std::size_t estimate = 0, truth = 0;
   double translation_m = 0, rotation_rad = 0, add_m = 0, add_s_m = 0, mssd_m = 0;
 };
 
 /// Of every estimate that was matched, in their order.
-std::vector<EstimateErrors> estimate_errors(const Judge& judge,
+std::vector<EstimateErrors> estimate_errors(const ReconstructionEvaluator& evaluator,
                                             const Reconstruction& reconstruction);
 
 /// What the BOP challenge (of 2019 and later) says of a reconstruction.
@@ -45,7 +46,8 @@ struct BopScores {
 /// Scores a reconstruction in every image, whichever of them it was made from. Estimates of objects
 /// that are no target in an image are left out there, as BOP does. Runs in the caller's task arena;
 /// the same bits at any number of threads. Nothing without a target.
-std::optional<BopScores> bop_scores(const Judge& judge, const Reconstruction& reconstruction,
+std::optional<BopScores> bop_scores(const ReconstructionEvaluator& evaluator,
+                                    const Reconstruction& reconstruction,
                                     std::span<const ScoredImage> images);
 
 }  // namespace vantage

@@ -9,7 +9,7 @@
 namespace vantage {
 namespace {
 
-constexpr std::size_t kMostSubsets = 1'000'000;
+constexpr std::size_t kMaxSubsets = 1'000'000;
 
 /// The next subset of the same size in lexicographic order; false after the last one.
 bool advance(CameraSubset& subset, std::size_t cameras) {
@@ -34,11 +34,11 @@ std::vector<CameraSubset> camera_subsets(std::size_t cameras, std::size_t least,
     CameraSubset subset(size);
     std::iota(subset.begin(), subset.end(), std::size_t(0));
     do {
-      if (subsets.size() == kMostSubsets) {
+      if (subsets.size() == kMaxSubsets) {
         throw Error(ErrorCode::out_of_resources, "cameras",
                     fmt::format("{} cameras have more than {} subsets; ask for fewer cameras or "
                                 "smaller subsets",
-                                cameras, kMostSubsets));
+                                cameras, kMaxSubsets));
       }
       subsets.push_back(subset);
     } while (advance(subset, cameras));

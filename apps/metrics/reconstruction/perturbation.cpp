@@ -38,7 +38,7 @@ void add_noise(SeenPoints& seen, double noise_px, std::uint64_t hash) {
 
 }  // namespace
 
-void Disturbance::check() const {
+void Perturbation::check() const {
   if (!(noise_px >= 0) || !std::isfinite(noise_px)) {
     throw bad_input("noise_px", fmt::format("found {}; expected pixels, 0 or more", noise_px));
   }
@@ -46,23 +46,24 @@ void Disturbance::check() const {
   check_share(wrong_ids, "wrong_ids");
 }
 
-std::vector<CameraView> disturbed(std::span<const CameraView> views, const Disturbance& disturbance,
-                                  std::uint64_t trial, std::span<const FeatureKey> keys) {
-  disturbance.check();
+std::vector<CameraView> disturbed(std::span<const CameraView> views,
+                                  const Perturbation& perturbation, std::uint64_t trial,
+                                  std::span<const FeatureKey> keys) {
+  perturbation.check();
   std::vector<CameraView> result(views.begin(), views.end());
   for (std::size_t view = 0; view < views.size(); ++view) {
     result[view].observations.clear();
     for (std::size_t i = 0; i < views[view].observations.size(); ++i) {
       const auto draw = [&](Draw what) {
-        return sample_hash(disturbance.seed, trial, view, i, int(what));
+        return sample_hash(perturbation.seed, trial, view, i, int(what));
       };
-      if (to_unit(draw(Draw::drop)) < disturbance.drop) continue;
+      if (to_unit(draw(Draw::drop)) < perturbation.drop) continue;
       Observation seen = views[view].observations[i];
-      if (to_unit(draw(Draw::misread)) < disturbance.wrong_ids) {
+      if (to_unit(draw(Draw::misread)) < perturbation.wrong_ids) {
         seen.key = misread(seen.key, keys, draw(Draw::key));
       }
-      if (auto* points = std::get_if<SeenPoints>(&seen.data); points && disturbance.noise_px > 0) {
-        add_noise(*points, disturbance.noise_px, draw(Draw::noise));
+      if (auto* points = std::get_if<SeenPoints>(&seen.data); points && perturbation.noise_px > 0) {
+        add_noise(*points, perturbation.noise_px, draw(Draw::noise));
       }
       result[view].observations.push_back(std::move(seen));
     }

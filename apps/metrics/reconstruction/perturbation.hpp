@@ -10,7 +10,7 @@ namespace vantage {
 
 /// What a worse detector would have done to the observations. The same seed and trial, the same
 /// disturbance, whoever asks and in whatever order.
-struct Disturbance {
+struct Perturbation {
   double noise_px = 0;   ///< standard deviation added to each coordinate of points
   double drop = 0;       ///< share of the observations that are lost
   double wrong_ids = 0;  ///< share that is read as another key
@@ -24,7 +24,8 @@ struct Disturbance {
 /// The views with disturbed observations; `sigma_px` says so.
 /// @param keys that a detector may read by mistake. Only keys of the same type are taken, and an
 /// observation without another key of its type keeps its own.
-std::vector<CameraView> disturbed(std::span<const CameraView> views, const Disturbance& disturbance,
-                                  std::uint64_t trial, std::span<const FeatureKey> keys);
+std::vector<CameraView> disturbed(std::span<const CameraView> views,
+                                  const Perturbation& perturbation, std::uint64_t trial,
+                                  std::span<const FeatureKey> keys);
 
 }  // namespace vantage

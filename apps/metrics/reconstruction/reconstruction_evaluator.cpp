@@ -18,7 +18,7 @@ std::vector<double> scores_of(const Reconstruction& reconstruction) {
 
 }  // namespace
 
-Judge::Judge(std::vector<TrueObject> truth, double correct)
+ReconstructionEvaluator::ReconstructionEvaluator(std::vector<TrueObject> truth, double correct)
     : truth_(std::move(truth)), correct_(correct) {
   if (!(correct > 0)) {
     throw bad_input("correct",
@@ -36,7 +36,7 @@ Judge::Judge(std::vector<TrueObject> truth, double correct)
   touching_ = touching_corners(placed);
 }
 
-Eigen::MatrixXd Judge::errors_of(const Reconstruction& reconstruction) const {
+Eigen::MatrixXd ReconstructionEvaluator::errors_of(const Reconstruction& reconstruction) const {
   const auto& estimates = reconstruction.objects;
   Eigen::MatrixXd errors(Eigen::Index(estimates.size()), Eigen::Index(truth_.size()));
   errors.setConstant(kInfinite);
@@ -51,18 +51,21 @@ Eigen::MatrixXd Judge::errors_of(const Reconstruction& reconstruction) const {
   return errors;
 }
 
-std::vector<std::optional<Match>> Judge::matches(const Reconstruction& reconstruction) const {
+std::vector<std::optional<Match>> ReconstructionEvaluator::matches(
+    const Reconstruction& reconstruction) const {
   return match_instances(errors_of(reconstruction), scores_of(reconstruction), kInfinite);
 }
 
-Verdict Judge::judge(const Reconstruction& reconstruction, const std::vector<bool>& counts) const {
+ReconstructionScore ReconstructionEvaluator::evaluator(const Reconstruction& reconstruction,
+                                                       const std::vector<bool>& counts) const {
   const Eigen::MatrixXd errors = errors_of(reconstruction);
   const std::vector<double> scores = scores_of(reconstruction);
   const auto correct = match_instances(errors, scores, correct_);
-  Verdict verdict{std::size_t(std::count(counts.begin(), counts.end(), true)), scores.size(),
-                  found(correct, counts), found(correct, std::vector(truth_.size(), true))};
+  ReconstructionScore score{std::size_t(std::count(counts.begin(), counts.end(), true)),
+                            scores.size(), found(correct, counts),
+                            found(correct, std::vector(truth_.size(), true))};
   for (const double threshold : bop_thresholds()) {
-    verdict.found_at.push_back(found(match_instances(errors, scores, threshold), counts));
+    score.found_at.push_back(found(match_instances(errors, scores, threshold), counts));
   }
   const auto matches = match_instances(errors, scores, kInfinite);
   for (std::size_t e = 0; e < matches.size(); ++e) {
@@ -70,15 +73,15 @@ Verdict Judge::judge(const Reconstruction& reconstruction, const std::vector<boo
     const std::size_t t = matches[e]->truth;
     const Pose& estimate = reconstruction.objects[e].T_world_object;
     const auto nearest = nearest_symmetric(*models_[t], estimate, truth_[t].T_world_object);
-    verdict.objects.push_back({e, t, translation_error_m(estimate, nearest.T_ref_object),
-                               rotation_error_rad(estimate, nearest.T_ref_object), nearest.mssd_m});
+    score.objects.push_back({e, t, translation_error_m(estimate, nearest.T_ref_object),
+                             rotation_error_rad(estimate, nearest.T_ref_object), nearest.mssd_m});
   }
-  verdict.self_consistency_mm2 = self_consistency_mm2(reconstruction, verdict.objects);
-  return verdict;
+  score.self_consistency_mm2 = self_consistency_mm2(reconstruction, score.objects);
+  return score;
 }
 
-std::optional<double> Judge::self_consistency_mm2(const Reconstruction& reconstruction,
-                                                  const std::vector<ObjectErrors>& objects) const {
+std::optional<double> ReconstructionEvaluator::self_consistency_mm2(
+    const Reconstruction& reconstruction, const std::vector<ObjectErrors>& objects) const {
   if (touching_.empty()) return {};
   std::vector<std::optional<Pose>> found(truth_.size());
   for (const ObjectErrors& object : objects) {

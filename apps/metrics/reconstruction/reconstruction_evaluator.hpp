@@ -23,7 +23,7 @@ struct ObjectErrors {
 };
 
 /// A reconstruction held against the truth.
-struct Verdict {
+struct ReconstructionScore {
   std::size_t true_objects = 0;  ///< that are to be found
   std::size_t estimates = 0;
   std::size_t found = 0;    ///< of `true_objects`, by an estimate that is correct
@@ -39,18 +39,19 @@ struct Verdict {
 /// Estimates are matched to true objects of their type by MSSD, in shares of the object's diameter,
 /// as `match_instances` does: with a threshold for what counts as correct, and without one for the
 /// errors, so that bad poses show in these.
-class Judge {
+class ReconstructionEvaluator {
  public:
   /// @param correct an estimate is, if its MSSD is below this share of the object's diameter.
   /// @throws Error bad_input unless `correct` is positive.
-  explicit Judge(std::vector<TrueObject> truth, double correct = 0.1);
+  explicit ReconstructionEvaluator(std::vector<TrueObject> truth, double correct = 0.1);
 
   const std::vector<TrueObject>& truth() const noexcept { return truth_; }
   const ErrorModel& model_of(std::size_t truth) const { return *models_[truth]; }
   const std::vector<TouchingCorners>& touching() const noexcept { return touching_; }
 
   /// @param counts the true objects that are to be found; others do no harm if they are.
-  Verdict judge(const Reconstruction& reconstruction, const std::vector<bool>& counts) const;
+  ReconstructionScore evaluator(const Reconstruction& reconstruction,
+                                const std::vector<bool>& counts) const;
 
   /// Without a threshold: for each estimate the true object of its type that it stands for.
   std::vector<std::optional<Match>> matches(const Reconstruction& reconstruction) const;

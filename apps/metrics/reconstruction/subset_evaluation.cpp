@@ -14,7 +14,7 @@ namespace {
 std::vector<CameraView> seen_in(std::span<const CameraView> views, const CameraSubset& subset,
                                 std::size_t trial, const SubsetPlan& plan,
                                 const std::set<FeatureKey>& ignored) {
-  const std::vector<CameraView> all = disturbed(views, plan.disturbance, trial, plan.keys);
+  const std::vector<CameraView> all = disturbed(views, plan.perturbation, trial, plan.keys);
   std::vector<CameraView> some;
   for (const std::size_t view : subset) {
     some.push_back(all[view]);
@@ -26,11 +26,12 @@ std::vector<CameraView> seen_in(std::span<const CameraView> views, const CameraS
 
 }  // namespace
 
-std::vector<SubsetRun> evaluate_subsets(std::span<const CameraView> views, const Judge& judge,
+std::vector<SubsetRun> evaluate_subsets(std::span<const CameraView> views,
+                                        const ReconstructionEvaluator& evaluator,
                                         std::span<const EvaluatedMethod> methods,
                                         const SubsetPlan& plan, const StopToken& stop) {
   const std::set<FeatureKey> ignored(plan.ignored.begin(), plan.ignored.end());
-  const auto seen = seen_objects(views, judge.truth());
+  const auto seen = seen_objects(views, evaluator.truth());
   std::vector<SubsetRun> runs(plan.subsets.size() * plan.trials);
   stop.expect(runs.size());
   tbb::parallel_for(std::size_t(0), runs.size(), [&](std::size_t i) {
@@ -40,7 +41,7 @@ std::vector<SubsetRun> evaluate_subsets(std::span<const CameraView> views, const
     const CameraSubset& subset = plan.subsets[run.subset];
     const auto some = seen_in(views, subset, run.trial, plan, ignored);
     for (const EvaluatedMethod& method : methods) {
-      run.verdicts.push_back(judge.judge(method.reconstruct(some), seen_by(seen, subset)));
+      run.scores.push_back(evaluator.evaluator(method.reconstruct(some), seen_by(seen, subset)));
     }
     stop.advance(1);
   });

@@ -21,7 +21,7 @@ struct EvaluatedMethod {
 /// What to run.
 struct SubsetPlan {
   std::vector<CameraSubset> subsets;
-  Disturbance disturbance = {};
+  Perturbation perturbation = {};
   std::size_t trials = 1;                ///< of the disturbance, for each subset
   std::vector<FeatureKey> keys = {};     ///< see `disturbed`
   std::vector<FeatureKey> ignored = {};  ///< observations with these are left out after disturbing
@@ -30,14 +30,15 @@ struct SubsetPlan {
 /// All methods with the cameras of one subset, in one trial.
 struct SubsetRun {
   std::size_t subset = 0, trial = 0;
-  std::vector<Verdict> verdicts;  ///< one for each method
+  std::vector<ReconstructionScore> scores;  ///< one for each method
 };
 
 /// Runs every method on every subset in every trial, in the caller's task arena. An object is to be
 /// found if a camera of the subset sees it (`seen_objects`, before anything is disturbed).
 /// @returns runs in the order of subsets, then of trials, at any number of threads; without sense
 /// if `stop` was cancelled.
-std::vector<SubsetRun> evaluate_subsets(std::span<const CameraView> views, const Judge& judge,
+std::vector<SubsetRun> evaluate_subsets(std::span<const CameraView> views,
+                                        const ReconstructionEvaluator& evaluator,
                                         std::span<const EvaluatedMethod> methods,
                                         const SubsetPlan& plan, const StopToken& stop = {});
 

@@ -18,7 +18,7 @@ Json with_fan(Json set, const ViewFan& fan) {
 }
 
 Json kind_json(const HalfSpheres& given, const Box& work_area) {
-  const HalfSpheres set = written_out(given, work_area);
+  const HalfSpheres set = resolve_defaults(given, work_area);
   return with_fan({{"radii_m", set.radii_m}, {"count", set.counts}}, set.fan);
 }
 

@@ -7,7 +7,7 @@
 
 namespace vantage {
 
-// The settings that were used, for plan.json's `config`; with the workcell's keys.
+// The options that were used, for plan.json's `config`; with the workcell's keys.
 
 /// Every number is written out: radii that follow from the work area, too. Of poses from a file or
 /// a list only how many there are: plan.json's `inputs` have the file.

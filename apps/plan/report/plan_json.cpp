@@ -15,7 +15,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::size_t kMostRegions = 20;
+constexpr std::size_t kMaxRegions = 20;
 
 double volume_m3(const Plan& plan, std::uint64_t voxels) {
   return double(voxels) * plan.classified->geometry().voxel_volume_m3();
@@ -64,7 +64,7 @@ Json conflicts_json(const Plan& plan) {
 Json regions_json(const ShadowRegions* regions) {
   if (regions == nullptr) return nullptr;
   Json largest = Json::array();
-  for (std::size_t r = 0; r < std::min(regions->list().size(), kMostRegions); ++r) {
+  for (std::size_t r = 0; r < std::min(regions->list().size(), kMaxRegions); ++r) {
     largest.push_back(region_json(regions->list()[r], regions->geometry()));
   }
   return {{"count", regions->list().size()}, {"largest", largest}};
@@ -162,8 +162,8 @@ Json config_of(const PlanRequest& request) {
       {"travel", travel},
       {"views",
        {{"most", request.views.most},
-        {"least_gain_m3", request.views.least_gain_m3},
-        {"least_gain_share", request.views.least_gain_share}}},
+        {"least_gain_m3", request.views.min_gain_m3},
+        {"least_gain_share", request.views.min_gain_share}}},
       {"volume", config_of(request.volume)}};
 }
 

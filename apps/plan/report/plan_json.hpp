@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "vantage/planner/plan.hpp"
-#include "vantage/volume/shadow_regions.hpp"
+#include "vantage/volume/advanced/shadow_regions.hpp"
 
 namespace vantage {
 
@@ -37,7 +37,7 @@ nlohmann::ordered_json plan_to_json(const Plan& plan, const ShadowRegions* regio
 /// The movable camera.
 nlohmann::ordered_json camera_json(const PlanRequest& request);
 
-/// The settings that the planner used, for `PlanRecord::config`.
+/// The options that the planner used, for `PlanRecord::config`.
 nlohmann::ordered_json config_of(const PlanRequest& request);
 
 }  // namespace vantage

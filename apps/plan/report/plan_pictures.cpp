@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "plan/report/plan_shapes.hpp"
+#include "vantage/raycore/advanced/picture.hpp"
+#include "vantage/raycore/advanced/scene_builder.hpp"
 #include "vantage/raycore/image_io.hpp"
 #include "vantage/raycore/mesh_io.hpp"
-#include "vantage/raycore/picture.hpp"
-#include "vantage/raycore/scene_builder.hpp"
 
 namespace vantage {
 namespace {
@@ -24,7 +24,7 @@ double azimuth_of(const Eigen::Vector3d& v) {
 double overview_azimuth(const Plan& plan, const WorldModel& world) {
   const Eigen::Vector3d centre = plan.request.work_area.centre();
   Eigen::Vector3d given = Eigen::Vector3d::Zero();
-  for (const Observer& observer : world.cameras) given += observer.camera.centre() - centre;
+  for (const DepthCamera& observer : world.cameras) given += observer.camera.centre() - centre;
   const double given_azimuth = azimuth_of(given);
   const std::vector<PinholeCamera> cameras = suggested_cameras(plan);
   if (cameras.empty()) return given_azimuth + std::numbers::pi / 3;

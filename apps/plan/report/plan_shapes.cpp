@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "vantage/volume/voxel_surface.hpp"
+#include "vantage/volume/advanced/voxel_surface.hpp"
 
 namespace vantage {
 
@@ -125,7 +125,7 @@ std::vector<ColoredMesh> voxel_meshes(const StateGrid& grid) {
 std::vector<ColoredMesh> camera_meshes(const Plan& plan, const WorldModel& world) {
   std::vector<ColoredMesh> meshes{
       {"work area", box_edges(plan.request.work_area, 0.004 * scale_of(plan)), kWorkArea}};
-  for (const Observer& observer : world.cameras) {
+  for (const DepthCamera& observer : world.cameras) {
     meshes.push_back({"camera " + observer.name,
                       shape_of(observer.camera, plan, size_among(world.cameras.size())),
                       kGivenCamera});

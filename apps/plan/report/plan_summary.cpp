@@ -9,9 +9,9 @@ namespace vantage {
 namespace {
 
 std::string rejections(const Plan& plan) {
-  std::map<Rejection, int> counts;
+  std::map<InvalidReason, int> counts;
   for (const ScoredCandidate& candidate : plan.candidates) {
-    if (candidate.rejected != Rejection::none) ++counts[candidate.rejected];
+    if (candidate.rejected != InvalidReason::none) ++counts[candidate.rejected];
   }
   std::string text;
   for (const auto& [reason, count] : counts) {
@@ -36,14 +36,14 @@ std::string reveals_text(const Plan& plan, std::uint64_t voxels) {
 
 /// Nothing for methods that look at all candidates.
 std::string shortlist_text(const Plan& plan) {
-  const auto passed_over = std::count_if(
-      plan.candidates.begin(), plan.candidates.end(), [](const ScoredCandidate& candidate) {
-        return candidate.score.known == ScoreBound::Known::passed_over;
-      });
-  if (passed_over == 0) return "";
+  const auto pruned = std::count_if(plan.candidates.begin(), plan.candidates.end(),
+                                    [](const ScoredCandidate& candidate) {
+                                      return candidate.score.known == ScoreBound::Known::pruned;
+                                    });
+  if (pruned == 0) return "";
   return fmt::format(
       "shortlist  {} candidates were passed over for less shadow in a carved grid of {} m\n",
-      passed_over, plan.request.method.mesh.shortlist_voxel_m);
+      pruned, plan.request.method.mesh.shortlist_voxel_m);
 }
 
 std::string origin_text(const Plan& plan, const RankedView& view) {
@@ -89,7 +89,7 @@ std::string no_view_summary(const Plan& plan) {
   if (plan.stopped != StopReason::none) return "stopped before any score\n";
   const bool all_rejected = std::all_of(
       plan.candidates.begin(), plan.candidates.end(),
-      [](const ScoredCandidate& candidate) { return candidate.rejected != Rejection::none; });
+      [](const ScoredCandidate& candidate) { return candidate.rejected != InvalidReason::none; });
   if (all_rejected) return "no feasible view: every candidate was rejected\n";
   if (plan.classified->count(VoxelState::shadow) == 0) return "no view: there is no shadow\n";
   return "no view: none of the candidates reveals any shadow\n";

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "vantage/planner/plan.hpp"
-#include "vantage/volume/shadow_regions.hpp"
+#include "vantage/volume/advanced/shadow_regions.hpp"
 
 namespace vantage {
 

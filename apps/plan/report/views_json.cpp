@@ -98,7 +98,7 @@ Json candidates_json(const Plan& plan) {
     const auto volume = volumes.find(i);
     Json counted = volume == volumes.end() ? Json() : Json(volume->second);
     if (exact && plan.request.method.name == "voxel") counted = score;  // that is the score
-    const bool feasible = candidate.rejected == Rejection::none;
+    const bool feasible = candidate.rejected == InvalidReason::none;
     list.push_back({{"id", candidate.view.id},
                     {"score", exact ? Json(score) : Json()},
                     {"score_at_most", exact || bound ? Json(score) : Json()},
@@ -111,9 +111,9 @@ Json candidates_json(const Plan& plan) {
 }
 
 Json rejections_json(const Plan& plan) {
-  std::map<Rejection, int> counts;
+  std::map<InvalidReason, int> counts;
   for (const ScoredCandidate& candidate : plan.candidates) {
-    if (candidate.rejected != Rejection::none) ++counts[candidate.rejected];
+    if (candidate.rejected != InvalidReason::none) ++counts[candidate.rejected];
   }
   Json json = Json::object();
   for (const auto& [reason, count] : counts) json[std::string(to_text(reason))] = count;
@@ -132,7 +132,7 @@ Json explanations_json(const Plan& plan, const std::vector<ViewExplanation>& exp
                          {"volume_m3", plan.volume_m3(gain.voxels)},
                          {"revealed_m3", plan.volume_m3(gain.revealed)}});
     }
-    const bool feasible = view.rejected == Rejection::none;
+    const bool feasible = view.rejected == InvalidReason::none;
     list.push_back({{"id", view.candidate.id},
                     {"verdict", view.verdict},
                     {"rejected", feasible ? Json() : Json(to_text(view.rejected))},

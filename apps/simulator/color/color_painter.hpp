@@ -26,7 +26,7 @@ struct BandScratch {
 
 /// Paints bands of four pixel rows, of which a picture has `band_count()`. The samples of a band
 /// are traced in blocks of fixed size, pixel by pixel and tile by tile: with 16 samples, a packet
-/// of rays is one pixel, with one sample a tile of 4 × 4. Thread-safe; refers to its arguments.
+/// of rays is one pixel, with one sample a tile of 4 × 4. Thread-safe; refers to its options.
 class ColorPainter {
  public:
   ColorPainter(const SimulatedScene& scene, const Lighting& lighting, const PinholeCamera& camera,

@@ -28,17 +28,17 @@ void check_point(const char* what, const Eigen::Vector3f& p) {
 }
 
 void check(const Lighting& lighting) {
-  constexpr double kLeast = 1e-6;
+  constexpr double kMin = 1e-6;
   check_point("a coordinate of lamp_centre_m", lighting.lamp_centre_m);
   check_point("a coordinate of lamp_target_m", lighting.lamp_target_m);
   check("lighting", "the distance from lamp_centre_m to lamp_target_m",
-        (lighting.lamp_centre_m - lighting.lamp_target_m).norm(), kLeast, 4 * kFarthestLamp,
+        (lighting.lamp_centre_m - lighting.lamp_target_m).norm(), kMin, 4 * kFarthestLamp,
         "more than 1e-6 m");
-  check("lighting", "lamp_side_m", lighting.lamp_side_m, kLeast, kFarthestLamp, "1e-6 to 1e6 m");
+  check("lighting", "lamp_side_m", lighting.lamp_side_m, kMin, kFarthestLamp, "1e-6 to 1e6 m");
   check("lighting", "lamp_share", lighting.lamp_share, 0, 1, "0 to 1");
   check("lighting", "exposure", lighting.exposure, 0, 1e6, "0 to 1e6");
   check("lighting", "bounce", lighting.bounce, 0, 1, "0 to 1");
-  check("lighting", "sky_reach_m", lighting.sky_reach_m, kLeast, kFarthestLamp, "1e-6 to 1e6 m");
+  check("lighting", "sky_reach_m", lighting.sky_reach_m, kMin, kFarthestLamp, "1e-6 to 1e6 m");
   for (const float c : lighting.background) {
     check("lighting", "a channel of background", c, 0, 1, "sRGB from 0 to 1");
   }

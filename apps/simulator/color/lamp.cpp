@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "vantage/raycore/multiversion.hpp"
+#include "vantage/raycore/detail/multiversion.hpp"
 
 namespace vantage {
 namespace {

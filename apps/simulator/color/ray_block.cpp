@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "vantage/raycore/multiversion.hpp"
+#include "vantage/raycore/detail/multiversion.hpp"
 
 namespace vantage {
 namespace {
 
 // Keeps shadow rays off the surface that they start on: a part of the distance to the camera.
-constexpr float kLift = 1e-4f, kLeastDistance = 0.1f;
+constexpr float kLift = 1e-4f, kMinDistance = 0.1f;
 
 /// Calls `copy(surface, ray)` for each surface; mostly every ray has met one.
 template <class Copy>
@@ -59,7 +59,7 @@ constexpr Multiversion<add_rays_body> add_rays_kernel;
     const float towards = x * normal.x[i] + y * normal.y[i] + z * normal.z[i];
     const float side = towards > 0 ? -1.0f : 1.0f;
     const float nx = side * normal.x[i], ny = side * normal.y[i], nz = side * normal.z[i];
-    const float lift = kLift * std::max(kLeastDistance, t[i]);
+    const float lift = kLift * std::max(kMinDistance, t[i]);
     block.normal.x[s] = nx, block.normal.y[s] = ny, block.normal.z[s] = nz;
     block.from.x[s] = cx + t[i] * x + lift * nx;
     block.from.y[s] = cy + t[i] * y + lift * ny;

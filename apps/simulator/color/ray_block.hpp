@@ -6,8 +6,8 @@
 
 #include "simulator/color/lamp.hpp"
 #include "simulator/color/sample_table.hpp"
+#include "vantage/raycore/advanced/scene.hpp"
 #include "vantage/raycore/points.hpp"
-#include "vantage/raycore/scene.hpp"
 
 namespace vantage {
 

@@ -6,9 +6,9 @@
 
 #include "simulator/depth/normal_noise.hpp"
 #include "simulator/scene/sample_hash.hpp"
-#include "vantage/raycore/multiversion.hpp"
+#include "vantage/raycore/detail/multiversion.hpp"
 
-namespace vantage::detail {
+namespace vantage::simulator::detail {
 namespace {
 
 constexpr std::size_t kBlock = 128;
@@ -95,4 +95,4 @@ void DepthMeasurement::measure(float* metres, std::size_t count, std::uint32_t f
   }
 }
 
-}  // namespace vantage::detail
+}  // namespace vantage::simulator::detail

@@ -5,7 +5,7 @@
 
 #include "simulator/depth/depth_sensor.hpp"
 
-namespace vantage::detail {
+namespace vantage::simulator::detail {
 
 /// What the stereo matching makes of depths that both imagers see: noise, steps and limits.
 class DepthMeasurement {
@@ -28,4 +28,4 @@ class DepthMeasurement {
   bool exact_;
 };
 
-}  // namespace vantage::detail
+}  // namespace vantage::simulator::detail

@@ -17,7 +17,7 @@
 namespace vantage {
 namespace {
 
-using detail::kBandRows;
+using simulator::detail::kBandRows;
 
 /// Calls `band(first_row, rows)` for all bands of an image, in parallel.
 template <class Band>
@@ -64,8 +64,8 @@ DepthImage simulate_depth(const Scene& scene, const PinholeCamera& camera,
                           const StereoSensor& sensor, std::uint64_t seed) {
   sensor.check("depth sensor");
   const int width = camera.intrinsics().width, height = camera.intrinsics().height;
-  const detail::StereoView view(scene, camera, sensor);
-  const detail::DepthMeasurement measurement(sensor, camera.range(), seed);
+  const simulator::detail::StereoView view(scene, camera, sensor);
+  const simulator::detail::DepthMeasurement measurement(sensor, camera.range(), seed);
   std::vector<float> metres(std::size_t(width) * std::size_t(height));
   const auto measure = [&](int first_row, int rows) {
     const std::size_t first = std::size_t(first_row) * std::size_t(width);
@@ -74,13 +74,13 @@ DepthImage simulate_depth(const Scene& scene, const PinholeCamera& camera,
   };
 
   const bool flying = sensor.flying_pixels > 0;
-  tbb::enumerable_thread_specific<detail::StereoView::Scratch> scratch;
+  tbb::enumerable_thread_specific<simulator::detail::StereoView::Scratch> scratch;
   for_each_band(height, [&](int first_row, int rows) {
     view.fill_band(first_row / kBandRows, scratch.local(), metres.data());
     if (!flying) measure(first_row, rows);
   });
   if (flying) {
-    detail::add_flying_pixels(metres, width, height, sensor.flying_pixels, seed);
+    simulator::detail::add_flying_pixels(metres, width, height, sensor.flying_pixels, seed);
     for_each_band(height, measure);
   }
   return DepthImage(width, height, std::move(metres), "depth sensor");

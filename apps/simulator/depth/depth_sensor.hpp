@@ -2,9 +2,9 @@
 
 #include <cstdint>
 
+#include "vantage/raycore/advanced/scene.hpp"
 #include "vantage/raycore/camera.hpp"
 #include "vantage/raycore/depth_image.hpp"
-#include "vantage/raycore/scene.hpp"
 #include "vantage/volume/volume_options.hpp"
 
 namespace vantage {

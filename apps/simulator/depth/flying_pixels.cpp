@@ -7,7 +7,7 @@
 
 #include "simulator/scene/sample_hash.hpp"
 
-namespace vantage::detail {
+namespace vantage::simulator::detail {
 namespace {
 
 constexpr float kJump = 0.02f;
@@ -60,4 +60,4 @@ void add_flying_pixels(std::vector<float>& metres, int width, int height, double
   });
 }
 
-}  // namespace vantage::detail
+}  // namespace vantage::simulator::detail

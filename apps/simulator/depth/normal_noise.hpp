@@ -3,7 +3,7 @@
 #include <bit>
 #include <cstdint>
 
-namespace vantage::detail {
+namespace vantage::simulator::detail {
 
 /// A 32-bit hash of a counter under a key, in steps that vector units have: two rounds of Wellons'
 /// "lowbias32".
@@ -69,4 +69,4 @@ inline constexpr float kCentral = 5;
   return 1.41421356f * p * x;
 }
 
-}  // namespace vantage::detail
+}  // namespace vantage::simulator::detail

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "vantage/raycore/multiversion.hpp"
+#include "vantage/raycore/detail/multiversion.hpp"
 
-namespace vantage::detail {
+namespace vantage::simulator::detail {
 namespace {
 
 using Numbers = StereoView::Numbers;
@@ -44,7 +44,7 @@ struct RayArrays {
     const bool found = (t >= n.near_m) & (t <= n.far_m) & (r.u[i] >= n.first_u) &
                        (r.u[i] <= n.last_u) & (r.v[i] >= n.first_v) & (r.v[i] <= n.last_v) &
                        (r.u[i] - n.shift_m_px / t >= n.first_u) &
-                       (cosine_squared >= n.least_cosine_squared);
+                       (cosine_squared >= n.min_cosine_squared);
     depth[i] = found ? t : DepthImage::kUnknown;
     // What is not found gets any point that a ray may start in.
     const float reach = t <= n.far_m ? t : n.far_m;
@@ -104,7 +104,7 @@ Numbers numbers_of(const PinholeCamera& camera, const StereoSensor& sensor) {
           .last_u = float(k.width - 1) - border,
           .first_v = border,
           .last_v = float(k.height - 1) - border,
-          .least_cosine_squared = limited ? float(cosine * cosine) : -1.0f};
+          .min_cosine_squared = limited ? float(cosine * cosine) : -1.0f};
 }
 
 }  // namespace
@@ -163,4 +163,4 @@ void StereoView::lay_out(int first_u, int first_v, const float* depth, float* me
   }
 }
 
-}  // namespace vantage::detail
+}  // namespace vantage::simulator::detail

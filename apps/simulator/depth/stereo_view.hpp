@@ -8,7 +8,7 @@
 #include "simulator/depth/depth_sensor.hpp"
 #include "vantage/raycore/points.hpp"
 
-namespace vantage::detail {
+namespace vantage::simulator::detail {
 
 /// Rows of the image that are traced together; the image is cut into bands of these.
 inline constexpr int kBandRows = 4;
@@ -31,7 +31,7 @@ class StereoView {
     float near_m, far_m;
     float shift_m_px;  ///< fx · baseline: disparity in the image's own pixels, times depth
     float first_u, last_u, first_v, last_v;  ///< columns and rows that are not border
-    float least_cosine_squared;  ///< of the angle between normal and ray; below 0: no limit
+    float min_cosine_squared;  ///< of the angle between normal and ray; below 0: no limit
   };
 
  private:
@@ -62,4 +62,4 @@ class StereoView::Scratch {
   std::array<std::uint8_t, kChunkTiles> tiles;  ///< in which anything is found
 };
 
-}  // namespace vantage::detail
+}  // namespace vantage::simulator::detail

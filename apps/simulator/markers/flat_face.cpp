@@ -7,7 +7,7 @@
 #include <numeric>
 #include <utility>
 
-namespace vantage::detail {
+namespace vantage::simulator::detail {
 namespace {
 
 // Corners are stored as floats, and long thin triangles know little of their normals.
@@ -141,4 +141,4 @@ double area_inside_square(const std::array<Eigen::Vector2d, 3>& triangle, double
   return std::abs(twice) / 2;
 }
 
-}  // namespace vantage::detail
+}  // namespace vantage::simulator::detail

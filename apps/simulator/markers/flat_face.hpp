@@ -8,7 +8,7 @@
 
 #include "vantage/raycore/triangle_mesh.hpp"
 
-namespace vantage::detail {
+namespace vantage::simulator::detail {
 
 /// Which triangles of a mesh touch each other, by where their corners lie: meshes from files repeat
 /// vertices. Keeps a reference to the mesh.
@@ -40,4 +40,4 @@ double distance_to(const TriangleMesh& mesh, std::uint32_t triangle, const Eigen
 /// The part of the square |x|, |y| <= half_side that lies inside a triangle of the plane.
 double area_inside_square(const std::array<Eigen::Vector2d, 3>& triangle, double half_side);
 
-}  // namespace vantage::detail
+}  // namespace vantage::simulator::detail

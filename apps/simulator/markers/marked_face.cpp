@@ -12,7 +12,7 @@
 #include "simulator/markers/flat_face.hpp"
 #include "vantage/raycore/error.hpp"
 
-namespace vantage::detail {
+namespace vantage::simulator::detail {
 namespace {
 
 constexpr double kMaxDistance = 1e-4;    // metres, of a marker from its face
@@ -34,28 +34,28 @@ std::uint32_t triangle_under(const TriangleMesh& mesh, const Marker& marker,
                              const std::string& place) {
   const Eigen::Vector3d centre = marker.T_object_marker.translation();
   const Eigen::Vector3d normal = marker.T_object_marker.rotation().col(2);
-  double least_distance = std::numeric_limits<double>::infinity();
-  double least_angle = std::numbers::pi, largest_area = 0;
+  double min_distance = std::numeric_limits<double>::infinity();
+  double min_angle = std::numbers::pi, largest_area = 0;
   std::uint32_t best = 0;
   for (std::uint32_t t = 0; t < mesh.triangles().size(); ++t) {
     const double distance = distance_to(mesh, t, centre);
-    least_distance = std::min(least_distance, distance);
+    min_distance = std::min(min_distance, distance);
     if (distance > kMaxDistance) continue;
     const double angle = angle_between(normal_of(mesh, t), normal);
-    least_angle = std::min(least_angle, angle);
+    min_angle = std::min(min_angle, angle);
     if (angle > kMaxAngle || area_of(mesh, t) <= largest_area) continue;
     largest_area = area_of(mesh, t);
     best = t;
   }
   if (largest_area > 0) return best;
-  if (least_distance > kMaxDistance) {
+  if (min_distance > kMaxDistance) {
     throw bad_input(place, fmt::format("its centre is {:.3g} mm from the nearest face; expected it "
                                        "on a face (0.1 mm at most): correct its position",
-                                       1000 * least_distance));
+                                       1000 * min_distance));
   }
   throw bad_input(place, fmt::format("its z axis is {:.3g} degrees off the face's outward normal; "
                                      "expected 0.57 at most: correct its rotation",
-                                     least_angle * 180 / std::numbers::pi));
+                                     min_angle * 180 / std::numbers::pi));
 }
 
 /// With z along the face's normal, and x along the marker's as far as the face goes.
@@ -136,4 +136,4 @@ std::vector<MarkedFace> marked_faces(const TriangleMesh& mesh, std::span<const M
   return faces;
 }
 
-}  // namespace vantage::detail
+}  // namespace vantage::simulator::detail

@@ -7,7 +7,7 @@
 
 #include "simulator/markers/marker_print.hpp"
 
-namespace vantage::detail {
+namespace vantage::simulator::detail {
 
 /// A marker on a flat face.
 struct PrintedMarker {
@@ -29,4 +29,4 @@ struct MarkedFace {
 std::vector<MarkedFace> marked_faces(const TriangleMesh& mesh, std::span<const Marker> markers,
                                      const std::string& where);
 
-}  // namespace vantage::detail
+}  // namespace vantage::simulator::detail

@@ -8,7 +8,7 @@
 
 #include "vantage/raycore/error.hpp"
 
-namespace vantage::detail {
+namespace vantage::simulator::detail {
 namespace {
 
 constexpr int kMaxSide = 16384;
@@ -70,4 +70,4 @@ ColorImage lay_out(std::vector<Region>& regions, const std::string& where) {
   return {width, v + row_height};
 }
 
-}  // namespace vantage::detail
+}  // namespace vantage::simulator::detail

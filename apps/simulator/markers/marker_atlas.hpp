@@ -5,7 +5,7 @@
 
 #include "simulator/markers/marked_face.hpp"
 
-namespace vantage::detail {
+namespace vantage::simulator::detail {
 
 /// Where a face lies on the texture.
 struct Region {
@@ -23,4 +23,4 @@ Region region_for(const TriangleMesh& mesh, const MarkedFace& face, double texel
 /// @throws Error bad_input if it would be too large.
 ColorImage lay_out(std::vector<Region>& regions, const std::string& where);
 
-}  // namespace vantage::detail
+}  // namespace vantage::simulator::detail

@@ -17,9 +17,9 @@ namespace vantage {
 namespace {
 
 using Texel = std::array<std::uint8_t, 3>;
-using detail::MarkedFace;
-using detail::PrintedMarker;
-using detail::Region;
+using simulator::detail::MarkedFace;
+using simulator::detail::PrintedMarker;
+using simulator::detail::Region;
 
 // Paper and printer's ink, sRGB.
 constexpr std::uint8_t kWhite = 235;
@@ -151,14 +151,15 @@ TexturedMesh with_markers(const TriangleMesh& mesh, const Eigen::Vector3f& color
   check_color(color, where);
   check_texel(texel_m, where);
   TexturedMesh result{mesh, color};
-  const std::vector<MarkedFace> faces = detail::marked_faces(mesh, markers, where);
+  const std::vector<MarkedFace> faces = simulator::detail::marked_faces(mesh, markers, where);
   if (faces.empty()) return result;
 
   std::vector<Region> regions;
   regions.reserve(faces.size() + 1);
-  for (const MarkedFace& face : faces) regions.push_back(detail::region_for(mesh, face, texel_m));
+  for (const MarkedFace& face : faces)
+    regions.push_back(simulator::detail::region_for(mesh, face, texel_m));
   regions.push_back({0, 0, 3, 3});  // for all that has no marker
-  result.texture = detail::lay_out(regions, where);
+  result.texture = simulator::detail::lay_out(regions, where);
   const Eigen::Array3f level = (255 * color.array()).round();
   fill(result.texture, {std::uint8_t(level[0]), std::uint8_t(level[1]), std::uint8_t(level[2])});
   const Region& plain = regions.back();

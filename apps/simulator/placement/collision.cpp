@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "simulator/placement/mass_properties.hpp"
-#include "vantage/raycore/scene_builder.hpp"
+#include "vantage/raycore/advanced/scene_builder.hpp"
 
 namespace vantage {
 namespace {

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "simulator/placement/triangle_distance.hpp"
+#include "vantage/raycore/advanced/scene.hpp"
 #include "vantage/raycore/pose.hpp"
-#include "vantage/raycore/scene.hpp"
 #include "vantage/raycore/triangle_mesh.hpp"
 
 namespace vantage {

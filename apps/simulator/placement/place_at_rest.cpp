@@ -15,7 +15,7 @@ namespace vantage {
 namespace {
 
 constexpr std::uint64_t kTries = 2000;
-constexpr double kLeastGap = 1e-6;
+constexpr double kMinGap = 1e-6;
 const double kUprightCosine = std::cos(std::numbers::pi / 180);
 
 using MeshPointer = std::shared_ptr<const TriangleMesh>;
@@ -46,11 +46,11 @@ struct Dice {
 };
 
 void check(const PlacementOptions& options) {
-  if (!(options.gap_m >= kLeastGap && std::isfinite(options.gap_m))) {
+  if (!(options.gap_m >= kMinGap && std::isfinite(options.gap_m))) {
     throw bad_input("gap_m",
                     fmt::format("{} m found; expected {} m or more, which is what rays can "
                                 "tell apart",
-                                options.gap_m, kLeastGap));
+                                options.gap_m, kMinGap));
   }
   if (!(options.upright_share >= 0 && options.upright_share <= 1)) {
     throw bad_input("upright_share",

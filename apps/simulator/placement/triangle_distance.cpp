@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "vantage/raycore/segment_distance.hpp"
+#include "vantage/raycore/detail/segment_distance.hpp"
 
 namespace vantage {
 namespace {

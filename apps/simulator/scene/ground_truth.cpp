@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "vantage/volume/classify.hpp"
+#include "vantage/volume/advanced/classify.hpp"
 
 namespace vantage {
 namespace {

@@ -2,14 +2,14 @@
 
 #include <fmt/format.h>
 
+#include "vantage/raycore/advanced/scene_builder.hpp"
 #include "vantage/raycore/error.hpp"
-#include "vantage/raycore/scene_builder.hpp"
 
 namespace vantage {
 namespace {
 
 // Smaller meshes are hit faster as triangles of the scene's own BVH.
-constexpr std::size_t kLeastShared = 500;
+constexpr std::size_t kMinShared = 500;
 
 void check_shape(const SimulatedBody& body) {
   if (body.shape == nullptr) throw bad_input("body " + body.name, "it has no shape");
@@ -28,7 +28,7 @@ SimulatedScene::SimulatedScene(std::vector<SimulatedBody> bodies) : bodies_(std:
   for (const SimulatedBody& body : bodies_) {
     check_shape(body);
     const TriangleMesh& mesh = body.shape->mesh;
-    if (mesh.triangles().size() < kLeastShared) {
+    if (mesh.triangles().size() < kMinShared) {
       builder.add_mesh(mesh.transformed(body.T_world_body));
     } else {
       builder.add_instance({body.shape, &mesh}, body.T_world_body);

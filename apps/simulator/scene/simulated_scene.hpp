@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "simulator/scene/textured_mesh.hpp"
+#include "vantage/raycore/advanced/scene.hpp"
 #include "vantage/raycore/pose.hpp"
-#include "vantage/raycore/scene.hpp"
 
 namespace vantage {
 

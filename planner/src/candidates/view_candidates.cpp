@@ -15,9 +15,9 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 constexpr double kGoldenAngle = kPi * (3 - 2.2360679774997896964);  // √5
-constexpr int kMostDirections = 1'000'000;
-constexpr std::int64_t kMostViews = 4'000'000;
-constexpr int kMostRings = 50;
+constexpr int kMaxDirections = 1'000'000;
+constexpr std::int64_t kMaxViews = 4'000'000;
+constexpr int kMaxRings = 50;
 constexpr double kFarthest_m = 1e6;
 
 template <class... Args>
@@ -31,13 +31,13 @@ void check_positive_length(double length_m, const char* what) {
 }
 
 void check_direction_count(int count, const char* where) {
-  if (count >= 1 && count <= kMostDirections) return;
-  throw refusal("{} positions on {}; expected 1 to {}", count, where, kMostDirections);
+  if (count >= 1 && count <= kMaxDirections) return;
+  throw refusal("{} positions on {}; expected 1 to {}", count, where, kMaxDirections);
 }
 
 void check_fan(const ViewFan& fan) {
-  if (fan.rings < 0 || fan.rings > kMostRings) {
-    throw refusal("{} rings of directions; expected 0 to {}", fan.rings, kMostRings);
+  if (fan.rings < 0 || fan.rings > kMaxRings) {
+    throw refusal("{} rings of directions; expected 0 to {}", fan.rings, kMaxRings);
   }
   const bool right = std::isfinite(fan.step_rad) && fan.step_rad > 0;
   if (!right || fan.rings * fan.step_rad > kPi) {
@@ -59,23 +59,24 @@ void check_position(const ViewCandidate& view) {
 
 /// Before anything is made of them.
 void check_view_count(double positions, std::int64_t per_position) {
-  if (positions * double(per_position) <= double(kMostViews)) return;
+  if (positions * double(per_position) <= double(kMaxViews)) return;
   throw refusal("{:.0f} positions with {} views each; at most {} views are handled", positions,
-                per_position, kMostViews);
+                per_position, kMaxViews);
 }
 
 std::vector<ViewCandidate> views_of(const HalfSpheres& given, const Box& work_area) {
   check_fan(given.fan);
-  const HalfSpheres set = written_out(given, work_area);
+  const HalfSpheres set = resolve_defaults(given, work_area);
   check_view_count(std::accumulate(set.counts.begin(), set.counts.end(), 0.0),
-                   detail::fan_size(set.fan));
+                   planner::detail::fan_size(set.fan));
   const Eigen::Vector3d centre = work_area.centre();
   std::vector<ViewCandidate> views;
   for (std::size_t i = 0; i < set.radii_m.size(); ++i) {
     // Turned against each other, so that half-spheres of one count do not repeat their directions.
     const Eigen::AngleAxisd turn(double(i) * kGoldenAngle, Eigen::Vector3d::UnitZ());
     for (const Eigen::Vector3d& direction : half_sphere_directions(set.counts[i])) {
-      detail::add_fan(centre + set.radii_m[i] * (turn * direction), centre, set.fan, views);
+      planner::detail::add_fan(centre + set.radii_m[i] * (turn * direction), centre, set.fan,
+                               views);
     }
   }
   return views;
@@ -87,7 +88,7 @@ std::vector<ViewCandidate> views_of(const BoxGrid& grid, const Box& work_area) {
     throw refusal("a grid of {} x {} x {} positions; expected 1 or more along each axis",
                   grid.counts.x(), grid.counts.y(), grid.counts.z());
   }
-  check_view_count(grid.counts.cast<double>().prod(), detail::fan_size(grid.fan));
+  check_view_count(grid.counts.cast<double>().prod(), planner::detail::fan_size(grid.fan));
   const auto coordinate = [&](int axis, int i) {
     const double share = grid.counts[axis] == 1 ? 0.5 : double(i) / (grid.counts[axis] - 1);
     return (1 - share) * grid.box.min()[axis] + share * grid.box.max()[axis];
@@ -96,8 +97,8 @@ std::vector<ViewCandidate> views_of(const BoxGrid& grid, const Box& work_area) {
   for (int i = 0; i < grid.counts.x(); ++i) {
     for (int j = 0; j < grid.counts.y(); ++j) {
       for (int k = 0; k < grid.counts.z(); ++k) {
-        detail::add_fan({coordinate(0, i), coordinate(1, j), coordinate(2, k)}, work_area.centre(),
-                        grid.fan, views);
+        planner::detail::add_fan({coordinate(0, i), coordinate(1, j), coordinate(2, k)},
+                                 work_area.centre(), grid.fan, views);
       }
     }
   }
@@ -108,15 +109,16 @@ std::vector<ViewCandidate> views_of(const AroundPath& around, const Box& work_ar
   check_positive_length(around.step_m, "a step along the path");
   check_positive_length(around.radius_m, "a sphere around the path with a radius");
   check_direction_count(around.count, "a sphere around the path");
-  const std::vector<Pose> places = detail::poses_along(around.path, around.step_m, kMostViews);
+  const std::vector<Pose> places =
+      planner::detail::poses_along(around.path, around.step_m, kMaxViews);
   check_view_count(double(places.size()), 1 + around.count);
-  const auto directions = detail::directions_in_rings(around.count, kPi);
+  const auto directions = planner::detail::directions_in_rings(around.count, kPi);
   std::vector<ViewCandidate> views;
   for (const Pose& place : places) {
     views.push_back({int(views.size()), place});
     for (const Eigen::Vector3d& direction : directions) {
-      detail::add_fan(place.translation() + around.radius_m * direction, work_area.centre(), {},
-                      views);
+      planner::detail::add_fan(place.translation() + around.radius_m * direction,
+                               work_area.centre(), {}, views);
     }
   }
   return views;
@@ -140,7 +142,7 @@ HalfSpheres full_views() {
   return {.counts = {456, 456, 457}, .fan = {.rings = 2}};
 }
 
-HalfSpheres written_out(HalfSpheres set, const Box& work_area) {
+HalfSpheres resolve_defaults(HalfSpheres set, const Box& work_area) {
   for (const int count : set.counts) check_direction_count(count, "a half-sphere");
   if (set.counts.empty()) throw refusal("no count of positions; expected one, or one per radius");
   if (set.radii_m.empty()) {
@@ -165,7 +167,7 @@ std::vector<ViewCandidate> view_candidates(const CandidateSet& set, const Box& w
 
 std::vector<Eigen::Vector3d> half_sphere_directions(int count) {
   check_direction_count(count, "a half-sphere");
-  return detail::directions_in_rings(count, kPi / 2);
+  return planner::detail::directions_in_rings(count, kPi / 2);
 }
 
 std::vector<double> default_radii_m(const Box& work_area, int count) {

@@ -73,23 +73,23 @@ void ViewConstraints::check() const {
   }
 }
 
-std::string_view to_text(Rejection reason) {
+std::string_view to_text(InvalidReason reason) {
   switch (reason) {
-    case Rejection::none:
+    case InvalidReason::none:
       return "none";
-    case Rejection::below_the_floor:
+    case InvalidReason::below_the_floor:
       return "below the floor";
-    case Rejection::out_of_reach:
+    case InvalidReason::out_of_reach:
       return "out of reach";
-    case Rejection::outside_the_view_cone:
+    case InvalidReason::outside_the_view_cone:
       return "outside the view cone";
-    case Rejection::inside_occupied_volume:
+    case InvalidReason::inside_occupied_volume:
       return "inside occupied volume";
-    case Rejection::inside_shadow:
+    case InvalidReason::inside_shadow:
       return "inside shadow";
-    case Rejection::too_close_to_shadow:
+    case InvalidReason::too_close_to_shadow:
       return "too close to shadow";
-    case Rejection::too_close_to_occupied:
+    case InvalidReason::too_close_to_occupied:
       return "too close to occupied volume";
   }
   return "unknown";
@@ -145,29 +145,29 @@ bool too_close_to_shadow(const PlanningScene& scene, double near_m, const Eigen:
 
 }  // namespace
 
-ViewChecker::ViewChecker(const ViewConstraints& constraints, PlanningScene scene,
-                         const DepthRange& range)
+ViewValidityChecker::ViewValidityChecker(const ViewConstraints& constraints, PlanningScene scene,
+                                         const DepthRange& range)
     : constraints_(constraints), scene_(std::move(scene)), range_(range) {
   constraints_.check();
 }
 
-Rejection ViewChecker::check(const Pose& T_world_cam) const {
+InvalidReason ViewValidityChecker::check(const Pose& T_world_cam) const {
   const Eigen::Vector3d& centre = T_world_cam.translation();
-  if (centre.z() <= 0) return Rejection::below_the_floor;
-  if (!in_reach(constraints_, centre)) return Rejection::out_of_reach;
+  if (centre.z() <= 0) return InvalidReason::below_the_floor;
+  if (!in_reach(constraints_, centre)) return InvalidReason::out_of_reach;
   if (constraints_.view_cone && !in_cone(*constraints_.view_cone, T_world_cam.rotation().col(2))) {
-    return Rejection::outside_the_view_cone;
+    return InvalidReason::outside_the_view_cone;
   }
   const auto voxel = scene_.grid().geometry().voxel_at(centre);
   const VoxelState state = voxel ? scene_.grid().at(*voxel) : VoxelState::free;
   // Structures reach beyond the grid, and may be thinner than its voxels.
   if (state == VoxelState::occupied || scene_.occluders().encloses(centre)) {
-    return Rejection::inside_occupied_volume;
+    return InvalidReason::inside_occupied_volume;
   }
-  if (state == VoxelState::shadow) return Rejection::inside_shadow;
-  if (too_close_to_shadow(scene_, range_.near_m, centre)) return Rejection::too_close_to_shadow;
+  if (state == VoxelState::shadow) return InvalidReason::inside_shadow;
+  if (too_close_to_shadow(scene_, range_.near_m, centre)) return InvalidReason::too_close_to_shadow;
   const bool bumps = too_close(constraints_, scene_.occluders(), T_world_cam);
-  return bumps ? Rejection::too_close_to_occupied : Rejection::none;
+  return bumps ? InvalidReason::too_close_to_occupied : InvalidReason::none;
 }
 
 }  // namespace vantage

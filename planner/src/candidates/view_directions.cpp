@@ -9,7 +9,7 @@
 
 #include "vantage/raycore/error.hpp"
 
-namespace vantage::detail {
+namespace vantage::planner::detail {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
@@ -131,4 +131,4 @@ std::vector<Pose> poses_along(const std::vector<Pose>& path, double step_m, std:
   return poses;
 }
 
-}  // namespace vantage::detail
+}  // namespace vantage::planner::detail

@@ -5,7 +5,7 @@
 
 #include "vantage/planner/view_candidates.hpp"
 
-namespace vantage::detail {
+namespace vantage::planner::detail {
 
 /// `count` unit vectors, spread evenly over the part of the sphere that is up to `polar_rad` from
 /// +z (M. Deserno, 2004; see `half_sphere_directions`). From the zenith down.
@@ -25,4 +25,4 @@ void add_fan(const Eigen::Vector3d& eye, const Eigen::Vector3d& target, const Vi
 /// @throws Error bad_input for an empty path, or one with more than `most` poses.
 std::vector<Pose> poses_along(const std::vector<Pose>& path, double step_m, std::int64_t most);
 
-}  // namespace vantage::detail
+}  // namespace vantage::planner::detail

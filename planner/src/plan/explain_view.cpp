@@ -6,7 +6,7 @@
 #include "plan/polish_ranked.hpp"
 #include "vantage/planner/plan.hpp"
 #include "vantage/raycore/error.hpp"
-#include "vantage/volume/shadow_regions.hpp"
+#include "vantage/volume/advanced/shadow_regions.hpp"
 
 namespace vantage {
 namespace {
@@ -51,8 +51,8 @@ std::string polish_text(const ScoredStep& step) {
 }
 
 std::string verdict_of(const Plan& plan, const ViewExplanation& view,
-                       const detail::Utility& utility) {
-  if (view.rejected != Rejection::none) {
+                       const planner::detail::Utility& utility) {
+  if (view.rejected != InvalidReason::none) {
     return fmt::format("rejected: {}", to_text(view.rejected));
   }
   const ScoredStep& best_step = view.trace[view.best_step];
@@ -86,12 +86,13 @@ ViewExplanation explain_view(const WorldModel& world, const Plan& plan, int id) 
     throw bad_input("explain", "the plan was stopped before the work area was classified");
   }
   const ScoredCandidate& candidate = candidate_of(plan, id);
-  const detail::PlanningTools tools(world, plan.classified, plan.request, plan.candidates.size());
-  const detail::Utility utility(plan.request.search.travel);
+  const planner::detail::PlannerContext context(world, plan.classified, plan.request,
+                                                plan.candidates.size());
+  const planner::detail::Utility utility(plan.request.search.travel);
   ViewExplanation view{.candidate = candidate.view};
-  view.rejected = tools.search_tools().checker->check(candidate.view.T_world_cam);
-  if (view.rejected == Rejection::none) {
-    view.trace = detail::trace(tools, plan, candidate);
+  view.rejected = context.search_tools().validity->check(candidate.view.T_world_cam);
+  if (view.rejected == InvalidReason::none) {
+    view.trace = planner::detail::trace(context, plan, candidate);
     const auto worth = [&](const ScoredStep& step) {
       return utility.of(step.score.score, utility.share(step.step.T_world_cam.translation()));
     };
@@ -99,9 +100,9 @@ ViewExplanation explain_view(const WorldModel& world, const Plan& plan, int id) 
         view.trace.begin(), view.trace.end(),
         [&](const ScoredStep& a, const ScoredStep& b) { return worth(a) < worth(b); });
     view.best_step = std::size_t(best - view.trace.begin());
-    const PinholeCamera camera = tools.camera().moved_to(best->step.T_world_cam);
-    view.terms = tools.scorer()->terms(camera);
-    const std::vector<std::uint8_t> seen = tools.voxels().revealed(camera);
+    const PinholeCamera camera = context.camera().moved_to(best->step.T_world_cam);
+    view.terms = context.scorer()->terms(camera);
+    const std::vector<std::uint8_t> seen = context.voxels().revealed(camera);
     view.revealed_voxels = std::uint64_t(std::count(seen.begin(), seen.end(), std::uint8_t(1)));
     view.regions = region_gains(*plan.classified, seen);
   }
@@ -110,8 +111,9 @@ ViewExplanation explain_view(const WorldModel& world, const Plan& plan, int id) 
 }
 
 std::uint64_t revealed_voxels(const WorldModel& world, const Plan& plan, const Pose& T_world_cam) {
-  const detail::PlanningTools tools(world, plan.classified, plan.request, plan.candidates.size());
-  return tools.voxels().score(tools.camera().moved_to(T_world_cam)).score;
+  const planner::detail::PlannerContext context(world, plan.classified, plan.request,
+                                                plan.candidates.size());
+  return context.voxels().score(context.camera().moved_to(T_world_cam)).score;
 }
 
 }  // namespace vantage

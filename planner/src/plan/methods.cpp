@@ -5,9 +5,9 @@
 
 #include <algorithm>
 
-#include "vantage/planner/light_scorer.hpp"
-#include "vantage/planner/shadow_scorer.hpp"
-#include "vantage/planner/voxel_scorer.hpp"
+#include "vantage/planner/advanced/light_scorer.hpp"
+#include "vantage/planner/advanced/shadow_scorer.hpp"
+#include "vantage/planner/advanced/voxel_scorer.hpp"
 #include "vantage/raycore/error.hpp"
 
 namespace vantage {

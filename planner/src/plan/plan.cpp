@@ -10,7 +10,7 @@
 #include "plan/polish_ranked.hpp"
 #include "plan/view_sequence.hpp"
 #include "vantage/raycore/error.hpp"
-#include "vantage/volume/classify.hpp"
+#include "vantage/volume/advanced/classify.hpp"
 
 namespace vantage {
 namespace {
@@ -37,27 +37,28 @@ void search(const WorldModel& world, const std::vector<ViewCandidate>& views, Pl
   if (stopped()) return;
   const PlanningScene scene(world, plan.classified, plan.request.volume.occluders);
   if (stopped()) return;
-  const detail::PlanningTools tools(world, scene, plan.request, views.size());
-  plan.score_unit = tools.scorer()->unit();
-  plan.score_unit_name = tools.scorer()->unit_name();
-  SearchResult found = tools.search(views, stop);
+  const planner::detail::PlannerContext context(world, scene, plan.request, views.size());
+  plan.score_unit = context.scorer()->unit();
+  plan.score_unit_name = context.scorer()->unit_name();
+  SearchResult found = context.search(views, stop);
   plan.candidates = std::move(found.candidates);
   plan.ranked = std::move(found.ranked);
   plan.finished = found.finished;
   plan.stopped = found.stopped;
   if (plan.ranked.empty()) return;
-  if (plan.stopped == StopReason::none && !detail::polish(tools, plan.ranked, stop)) {
+  if (plan.stopped == StopReason::none && !planner::detail::polish(context, plan.ranked, stop)) {
     plan.stopped = stop.reason();
   }
   tbb::parallel_for(std::size_t(0), plan.ranked.size(), [&](std::size_t i) {
     RankedView& view = plan.ranked[i];
-    const PinholeCamera camera = tools.camera().moved_to(view.T_world_cam);
+    const PinholeCamera camera = context.camera().moved_to(view.T_world_cam);
     view.revealed_voxels =
-        tools.by_voxels() ? view.score : tools.voxels().ViewScorer::score(camera).score;
+        context.by_voxels() ? view.score : context.voxels().ViewScorer::score(camera).score;
   });
-  plan.trace = detail::trace(tools, plan, plan.candidates[plan.ranked.front().candidate], stop);
-  detail::add_view(tools.voxels(), tools.camera(), plan.ranked.front(), plan);
-  if (plan.request.views.most > 1) detail::add_next_views(world, tools, plan, stop);
+  plan.trace =
+      planner::detail::trace(context, plan, plan.candidates[plan.ranked.front().candidate], stop);
+  planner::detail::add_view(context.voxels(), context.camera(), plan.ranked.front(), plan);
+  if (plan.request.views.most > 1) planner::detail::add_next_views(world, context, plan, stop);
 }
 
 Plan plan_of(const PlanRequest& request, const std::vector<ViewCandidate>& views) {
@@ -76,15 +77,15 @@ void search_classified(const WorldModel& world, const std::vector<ViewCandidate>
 
 }  // namespace
 
-void ViewCount::check() const {
-  const bool gains = std::isfinite(least_gain_m3) && least_gain_m3 >= 0 && least_gain_share >= 0 &&
-                     least_gain_share <= 1;
+void ViewSequenceOptions::check() const {
+  const bool gains =
+      std::isfinite(min_gain_m3) && min_gain_m3 >= 0 && min_gain_share >= 0 && min_gain_share <= 1;
   if (most >= 1 && most <= 1000 && gains) return;
   throw bad_input("views",
                   fmt::format("{} views with a gain of at least {} m³ and {} of the shadow; "
                               "expected 1 to 1000 views, a volume that is not negative, and a "
                               "share from 0 to 1",
-                              most, least_gain_m3, least_gain_share));
+                              most, min_gain_m3, min_gain_share));
 }
 
 Plan plan_next_view(const WorldModel& world, const PlanRequest& request, const StopToken& stop) {

@@ -4,12 +4,12 @@
 
 #include "scene/planning_scene.hpp"
 #include "search/two_stage_search.hpp"
-#include "vantage/planner/shadow_scorer.hpp"
-#include "vantage/planner/voxel_scorer.hpp"
-#include "vantage/volume/carve.hpp"
-#include "vantage/volume/shadow_filter.hpp"
+#include "vantage/planner/advanced/shadow_scorer.hpp"
+#include "vantage/planner/advanced/voxel_scorer.hpp"
+#include "vantage/volume/advanced/carve.hpp"
+#include "vantage/volume/advanced/shadow_filter.hpp"
 
-namespace vantage::detail {
+namespace vantage::planner::detail {
 namespace {
 
 /// What the servo looks at, and which point it measures distances to.
@@ -27,58 +27,60 @@ std::shared_ptr<const ShadowView> servo_view(const std::shared_ptr<const ViewSco
 
 }  // namespace
 
-PlanningTools::PlanningTools(const WorldModel& world, const PlanningScene& scene,
-                             const PlanRequest& request, std::size_t candidates)
+PlannerContext::PlannerContext(const WorldModel& world, const PlanningScene& scene,
+                               const PlanRequest& request, std::size_t candidates)
     : options_(request.search),
       shortlist_(std::max(request.method.mesh.shortlist, request.search.ranked)),
-      tools_{nullptr, nullptr, nullptr,
-             PinholeCamera(request.intrinsics, Pose(), request.range, "movable camera"),
-             Utility(request.search.travel)},
+      context_{nullptr, nullptr, nullptr,
+               PinholeCamera(request.intrinsics, Pose(), request.range, "movable camera"),
+               Utility(request.search.travel)},
       polished_views_(std::size_t(request.polish.views)) {
-  ServoSight sight;
+  ServoSight observation;
   if (request.method.name == "mesh") {
     const std::size_t views = candidates * std::size_t(request.servo.iterations + 1);
     const MeshTools mesh = mesh_tools(world, scene.grid().geometry().box(), request, views);
-    tools_.scorer = mesh.scorer;
+    context_.scorer = mesh.scorer;
     cheap_ = mesh.cheap;
-    sight = {mesh.scorer, mesh.middle_of_unseen};
-    if (mesh.cheap != nullptr) sight.view = mesh.cheap_sight;
+    observation = {mesh.scorer, mesh.middle_of_unseen};
+    if (mesh.cheap != nullptr) observation.view = mesh.cheap_sight;
   } else {
-    tools_.scorer = make_view_scorer(request.method, scene, world, request.range);
-    sight.centre = scene.middle_of_shadow();
-    if (request.servo.iterations > 0) sight.view = servo_view(tools_.scorer, scene, request.range);
+    context_.scorer = make_view_scorer(request.method, scene, world, request.range);
+    observation.centre = scene.middle_of_shadow();
+    if (request.servo.iterations > 0)
+      observation.view = servo_view(context_.scorer, scene, request.range);
   }
-  tools_.checker = std::make_shared<const ViewChecker>(request.constraints, scene, request.range);
-  voxels_ = std::dynamic_pointer_cast<const VoxelScorer>(tools_.scorer);
+  context_.validity =
+      std::make_shared<const ViewValidityChecker>(request.constraints, scene, request.range);
+  voxels_ = std::dynamic_pointer_cast<const VoxelScorer>(context_.scorer);
   if (voxels_ == nullptr) voxels_ = std::make_shared<const VoxelScorer>(scene);
   if (request.servo.iterations > 0) {
-    tools_.servo = std::make_shared<const ServoRefiner>(sight.view, tools_.checker, tools_.camera,
-                                                        sight.centre, request.servo);
+    context_.servo = std::make_shared<const ServoRefiner>(
+        observation.view, context_.validity, context_.camera, observation.centre, request.servo);
   }
   if (request.polish.views > 0) {
-    polisher_ =
-        std::make_shared<const ViewPolisher>(tools_.scorer, tools_.checker, tools_.camera,
-                                             sight.centre, request.polish, request.search.travel);
+    polisher_ = std::make_shared<const ViewPolisher>(context_.scorer, context_.validity,
+                                                     context_.camera, observation.centre,
+                                                     request.polish, request.search.travel);
   }
 }
 
-SearchResult PlanningTools::search(std::span<const ViewCandidate> candidates,
-                                   const StopToken& stop) const {
-  const ViewSearch exact = search_by(tools_.scorer, options_.ranked);
+SearchResult PlannerContext::search(std::span<const ViewCandidate> candidates,
+                                    const StopToken& stop) const {
+  const ViewSearch exact = search_by(context_.scorer, options_.ranked);
   if (cheap_ == nullptr) return exact.run(candidates, stop);
   return ShortlistSearch(search_by(cheap_, shortlist_), exact, options_.ranked, shortlist_)
       .run(candidates, stop);
 }
 
-std::vector<ScoredStep> PlanningTools::trace(const ViewCandidate& candidate,
-                                             const StopToken& stop) const {
-  return search_by(tools_.scorer, options_.ranked).trace(candidate, stop);
+std::vector<ScoredStep> PlannerContext::trace(const ViewCandidate& candidate,
+                                              const StopToken& stop) const {
+  return search_by(context_.scorer, options_.ranked).trace(candidate, stop);
 }
 
-ViewSearch PlanningTools::search_by(std::shared_ptr<const ViewScorer> scorer, int ranked) const {
+ViewSearch PlannerContext::search_by(std::shared_ptr<const ViewScorer> scorer, int ranked) const {
   SearchOptions options = options_;
   options.ranked = ranked;
-  return {std::move(scorer), tools_.checker, tools_.servo, tools_.camera, options};
+  return {std::move(scorer), context_.validity, context_.servo, context_.camera, options};
 }
 
 namespace {
@@ -95,7 +97,7 @@ std::shared_ptr<const StateGrid> carved(const SeenWorld& seen, double voxel_size
 PlanningScene shortlist_scene(const SeenWorld& seen, const MeshOptions& options) {
   std::shared_ptr<const StateGrid> grid = carved(seen, options.shortlist_voxel_m);
   if (options.opening_m > 0) {
-    grid = opened_shadow(*grid, opening_radius(*grid, options.opening_m));
+    grid = morphological_open(*grid, opening_radius(*grid, options.opening_m));
   }
   return {seen.known, std::move(grid), OccluderMode::mesh};
 }
@@ -114,20 +116,20 @@ MeshTools mesh_tools(const WorldModel& world, const Box& work_area, const PlanRe
   const MeshOptions& options = request.method.mesh;
   const double power = request.method.depth_power;
   const SeenWorld seen = seen_world(world, work_area, options);
-  MeshTools tools;
-  tools.scorer = std::make_shared<const MeshScorer>(seen, request.range, power, options.image_width,
-                                                    options.weight);
-  tools.middle_of_unseen = middle_of_unseen(seen);
+  MeshTools context;
+  context.scorer = std::make_shared<const MeshScorer>(seen, request.range, power,
+                                                      options.image_width, options.weight);
+  context.middle_of_unseen = middle_of_unseen(seen);
   if (views > std::size_t(options.exact_views)) {
     const PlanningScene scene = shortlist_scene(seen, options);
     const auto shadow = std::make_shared<const ShadowScorer>(scene, request.range, power);
-    tools.cheap = shadow;
+    context.cheap = shadow;
     if (options.weight == MeshWeight::volume) {
-      tools.cheap = std::make_shared<const VoxelScorer>(scene);
+      context.cheap = std::make_shared<const VoxelScorer>(scene);
     }
-    tools.cheap_sight = shadow;
+    context.cheap_sight = shadow;
   }
-  return tools;
+  return context;
 }
 
-}  // namespace vantage::detail
+}  // namespace vantage::planner::detail

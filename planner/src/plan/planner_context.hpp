@@ -5,32 +5,32 @@
 #include <span>
 
 #include "search/candidate_group.hpp"
-#include "vantage/planner/mesh_scorer.hpp"
+#include "vantage/planner/advanced/mesh_scorer.hpp"
+#include "vantage/planner/advanced/shadow_scorer.hpp"
+#include "vantage/planner/advanced/voxel_scorer.hpp"
 #include "vantage/planner/plan.hpp"
-#include "vantage/planner/shadow_scorer.hpp"
-#include "vantage/planner/voxel_scorer.hpp"
 
-namespace vantage::detail {
+namespace vantage::planner::detail {
 
 /// All that a plan needs besides the candidates, made from a classified grid.
-class PlanningTools {
+class PlannerContext {
  public:
   /// @param candidates how many there are to be.
   /// @throws Error as `plan_next_view` does, but for the candidates.
-  PlanningTools(const WorldModel& world, std::shared_ptr<const StateGrid> grid,
-                const PlanRequest& request, std::size_t candidates)
-      : PlanningTools(world, PlanningScene(world, std::move(grid), request.volume.occluders),
-                      request, candidates) {}
+  PlannerContext(const WorldModel& world, std::shared_ptr<const StateGrid> grid,
+                 const PlanRequest& request, std::size_t candidates)
+      : PlannerContext(world, PlanningScene(world, std::move(grid), request.volume.occluders),
+                       request, candidates) {}
 
   /// @param scene made from `world`.
-  PlanningTools(const WorldModel& world, const PlanningScene& scene, const PlanRequest& request,
-                std::size_t candidates);
+  PlannerContext(const WorldModel& world, const PlanningScene& scene, const PlanRequest& request,
+                 std::size_t candidates);
 
-  const std::shared_ptr<const ViewScorer>& scorer() const { return tools_.scorer; }
+  const std::shared_ptr<const ViewScorer>& scorer() const { return context_.scorer; }
   const VoxelScorer& voxels() const { return *voxels_; }
-  bool by_voxels() const { return tools_.scorer == voxels_; }  ///< the method is `voxel`
-  const PinholeCamera& camera() const { return tools_.camera; }
-  const SearchTools& search_tools() const { return tools_; }
+  bool by_voxels() const { return context_.scorer == voxels_; }  ///< the method is `voxel`
+  const PinholeCamera& camera() const { return context_.camera; }
+  const SearchTools& search_tools() const { return context_; }
 
   /// The best of all candidates; of a shortlist, where the method has one.
   SearchResult search(std::span<const ViewCandidate> candidates, const StopToken& stop) const;
@@ -47,7 +47,7 @@ class PlanningTools {
   int shortlist_ = 0;
   std::shared_ptr<const VoxelScorer> voxels_;
   std::shared_ptr<const ViewScorer> cheap_;  ///< null: no shortlist
-  SearchTools tools_;
+  SearchTools context_;
   std::size_t polished_views_;
   std::shared_ptr<const ViewPolisher> polisher_;
 };
@@ -65,4 +65,4 @@ struct MeshTools {
 MeshTools mesh_tools(const WorldModel& world, const Box& work_area, const PlanRequest& request,
                      std::size_t views);
 
-}  // namespace vantage::detail
+}  // namespace vantage::planner::detail

@@ -4,14 +4,14 @@
 
 #include <algorithm>
 
-namespace vantage::detail {
+namespace vantage::planner::detail {
 namespace {
 
 /// Takes the view where polishing led, if that is better on the camera's own image, too.
-void polish_one(const PlanningTools& tools, RankedView& view, const StopToken& stop) {
-  std::vector<PolishStep> steps = tools.polisher()->path(view.T_world_cam, stop);
+void polish_one(const PlannerContext& context, RankedView& view, const StopToken& stop) {
+  std::vector<PolishStep> steps = context.polisher()->path(view.T_world_cam, stop);
   if (steps.empty()) return;
-  const SearchTools& search = tools.search_tools();
+  const SearchTools& search = context.search_tools();
   const PinholeCamera camera = search.camera.moved_to(steps.back().T_world_cam);
   const std::uint64_t share = search.utility.share(camera.centre());
   const ScoreBound score = search.scorer->score(camera, stop);
@@ -25,12 +25,12 @@ void polish_one(const PlanningTools& tools, RankedView& view, const StopToken& s
 
 }  // namespace
 
-bool polish(const PlanningTools& tools, std::vector<RankedView>& ranked, const StopToken& stop) {
-  if (tools.polisher() == nullptr) return true;
+bool polish(const PlannerContext& context, std::vector<RankedView>& ranked, const StopToken& stop) {
+  if (context.polisher() == nullptr) return true;
   std::vector<RankedView> polished = ranked;
-  const std::size_t count = std::min(polished.size(), tools.polished_views());
+  const std::size_t count = std::min(polished.size(), context.polished_views());
   tbb::parallel_for(std::size_t(0), count,
-                    [&](std::size_t i) { polish_one(tools, polished[i], stop); });
+                    [&](std::size_t i) { polish_one(context, polished[i], stop); });
   if (stop.stop_requested()) return false;
   std::sort(polished.begin(), polished.begin() + std::ptrdiff_t(count),
             [](const RankedView& a, const RankedView& b) {
@@ -40,9 +40,9 @@ bool polish(const PlanningTools& tools, std::vector<RankedView>& ranked, const S
   return true;
 }
 
-std::vector<ScoredStep> trace(const PlanningTools& tools, const Plan& plan,
+std::vector<ScoredStep> trace(const PlannerContext& context, const Plan& plan,
                               const ScoredCandidate& candidate, const StopToken& stop) {
-  std::vector<ScoredStep> steps = tools.trace(candidate.view, stop);
+  std::vector<ScoredStep> steps = context.trace(candidate.view, stop);
   for (const RankedView& view : plan.ranked) {
     if (&plan.candidates[view.candidate] != &candidate || view.polish.empty()) continue;
     steps.push_back(
@@ -51,4 +51,4 @@ std::vector<ScoredStep> trace(const PlanningTools& tools, const Plan& plan,
   return steps;
 }
 
-}  // namespace vantage::detail
+}  // namespace vantage::planner::detail

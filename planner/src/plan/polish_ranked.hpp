@@ -4,17 +4,17 @@
 
 #include "plan/planner_context.hpp"
 
-namespace vantage::detail {
+namespace vantage::planner::detail {
 
 /// Polishes the first of `ranked` and sorts them anew; among equals the lower candidate stays
 /// first. All of them are at least as good as before, hence ahead of the others, as before.
 ///
 /// @returns false if `stop` asked to stop before: then nothing is changed.
-bool polish(const PlanningTools& tools, std::vector<RankedView>& ranked, const StopToken& stop);
+bool polish(const PlannerContext& context, std::vector<RankedView>& ranked, const StopToken& stop);
 
 /// A candidate's servo iterations, and last, if it is one of the plan's polished views, that view;
 /// each with its exact score, or nothing known where `stop` came first.
-std::vector<ScoredStep> trace(const PlanningTools& tools, const Plan& plan,
+std::vector<ScoredStep> trace(const PlannerContext& context, const Plan& plan,
                               const ScoredCandidate& candidate, const StopToken& stop = {});
 
-}  // namespace vantage::detail
+}  // namespace vantage::planner::detail

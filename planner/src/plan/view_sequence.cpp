@@ -7,9 +7,9 @@
 #include <numeric>
 
 #include "plan/polish_ranked.hpp"
-#include "vantage/volume/classify.hpp"
+#include "vantage/volume/advanced/classify.hpp"
 
-namespace vantage::detail {
+namespace vantage::planner::detail {
 namespace {
 
 constexpr std::size_t kBatch = 16;
@@ -18,8 +18,8 @@ constexpr std::size_t kBatch = 16;
 /// now, since shadow only shrinks: most candidates are never looked at again.
 class LazyGreedy {
  public:
-  LazyGreedy(const SearchTools& tools, const std::vector<ScoredCandidate>& candidates)
-      : tools_(tools), candidates_(candidates) {
+  LazyGreedy(const SearchTools& context, const std::vector<ScoredCandidate>& candidates)
+      : context_(context), candidates_(candidates) {
     for (const ScoredCandidate& candidate : candidates) views_.push_back(candidate.view);
   }
 
@@ -27,26 +27,26 @@ class LazyGreedy {
   /// @returns nothing if there is no view left that reveals something, or if stopped.
   std::optional<RankedView> next(std::shared_ptr<const ViewScorer> scorer,
                                  const std::optional<TravelCost>& travel, const StopToken& stop) {
-    SearchTools tools = tools_;
-    tools.scorer = std::move(scorer);
-    tools.utility = Utility(travel);
-    Ranking ranking(1);
+    SearchTools context = context_;
+    context.scorer = std::move(scorer);
+    context.utility = Utility(travel);
+    TopK top(1);
     const std::vector<std::size_t> order = by_bound();
     for (std::size_t next = 0; next < order.size();) {
-      std::vector<Site> batch;
+      std::vector<CandidateGroup> batch;
       for (; next < order.size() && batch.size() < kBatch; ++next) {
         const std::size_t c = order[next];
-        if (candidates_[c].score.score < ranking.needed(views_[c].id)) continue;
-        batch.emplace_back(tools, views_, SiteRange{c, c + 1});
+        if (candidates_[c].score.score < top.needed(views_[c].id)) continue;
+        batch.emplace_back(context, views_, GroupRange{c, c + 1});
       }
       tbb::parallel_for(std::size_t(0), batch.size(), [&](std::size_t i) {
-        batch[i].prepare(ranking, stop);
-        batch[i].score(ranking, stop);
+        batch[i].prepare(top, stop);
+        batch[i].score(top, stop);
       });
       if (stop.stop_requested()) return std::nullopt;
-      for (const Site& site : batch) site.report(candidates_, ranking);
+      for (const CandidateGroup& group : batch) group.report(candidates_, top);
     }
-    const std::vector<RankedView> best = ranking.views();
+    const std::vector<RankedView> best = top.views();
     return best.empty() ? std::nullopt : std::optional(best.front());
   }
 
@@ -60,12 +60,12 @@ class LazyGreedy {
     return order;
   }
 
-  SearchTools tools_;
+  SearchTools context_;
   std::vector<ScoredCandidate> candidates_;
   std::vector<ViewCandidate> views_;
 };
 
-std::optional<RankedView> best_anew(const PlanningTools& left,
+std::optional<RankedView> best_anew(const PlannerContext& left,
                                     const std::vector<ScoredCandidate>& candidates,
                                     const StopToken& stop) {
   std::vector<ViewCandidate> views;
@@ -77,7 +77,7 @@ std::optional<RankedView> best_anew(const PlanningTools& left,
 
 /// A view that was chosen, as a camera; for the mesh method with the depths that it will measure if
 /// nothing stands in the shadow.
-Observer taken(const PinholeCamera& view, const WorldModel& world, const Plan& plan) {
+DepthCamera taken(const PinholeCamera& view, const WorldModel& world, const Plan& plan) {
   if (plan.request.method.name != "mesh") return {"view", view, nullptr};
   const DepthRange range{1e-3 * view.range().near_m, view.range().far_m};
   const auto occluders = occluder_scene(world, *plan.classified, plan.request.volume.occluders);
@@ -98,10 +98,10 @@ PlanRequest from_view(PlanRequest request, const Pose& T_world_cam) {
 }
 
 bool worth_it(const Plan& plan, std::uint64_t revealed_voxels) {
-  const ViewCount& views = plan.request.views;
+  const ViewSequenceOptions& views = plan.request.views;
   const double gain_m3 = plan.volume_m3(revealed_voxels);
-  return revealed_voxels > 0 && gain_m3 >= views.least_gain_m3 &&
-         gain_m3 >= views.least_gain_share * plan.classified->volume_m3(VoxelState::shadow);
+  return revealed_voxels > 0 && gain_m3 >= views.min_gain_m3 &&
+         gain_m3 >= views.min_gain_share * plan.classified->volume_m3(VoxelState::shadow);
 }
 
 }  // namespace
@@ -114,30 +114,30 @@ void add_view(const VoxelScorer& left, const PinholeCamera& camera, const Ranked
   plan.grid = plan.grid->with_revealed(seen);
 }
 
-void add_next_views(const WorldModel& world, const PlanningTools& tools, Plan& plan,
+void add_next_views(const WorldModel& world, const PlannerContext& context, Plan& plan,
                     const StopToken& stop) {
-  const bool lazy = tools.by_voxels();
-  LazyGreedy greedy(tools.search_tools(), plan.candidates);
+  const bool lazy = context.by_voxels();
+  LazyGreedy greedy(context.search_tools(), plan.candidates);
   WorldModel seen = world;
   while (int(plan.views.size()) < plan.request.views.most && !stop.stop_requested()) {
     const Pose& last = plan.views.back().view.T_world_cam;
     // A method that cannot bound one gain by another searches anew, the views before being taken.
-    seen.cameras.push_back(taken(tools.camera().moved_to(last), world, plan));
+    seen.cameras.push_back(taken(context.camera().moved_to(last), world, plan));
     const PlanRequest request = from_view(plan.request, last);
-    const PlanningTools left(seen, plan.grid, request, plan.candidates.size());
+    const PlannerContext left(seen, plan.grid, request, plan.candidates.size());
     const std::optional<RankedView> next =
         lazy ? greedy.next(left.scorer(), request.search.travel, stop)
              : best_anew(left, plan.candidates, stop);
     if (!next) break;
     std::vector<RankedView> best{*next};
     if (!polish(left, best, stop)) break;
-    const PinholeCamera view = tools.camera().moved_to(best.front().T_world_cam);
+    const PinholeCamera view = context.camera().moved_to(best.front().T_world_cam);
     if (!worth_it(plan, left.voxels().score(view).score)) return;
-    add_view(left.voxels(), tools.camera(), best.front(), plan);
+    add_view(left.voxels(), context.camera(), best.front(), plan);
   }
   if (int(plan.views.size()) < plan.request.views.most && plan.stopped == StopReason::none) {
     plan.stopped = stop.reason();
   }
 }
 
-}  // namespace vantage::detail
+}  // namespace vantage::planner::detail

@@ -1,4 +1,4 @@
-#include "vantage/planner/servo_refiner.hpp"
+#include "vantage/planner/advanced/servo_refiner.hpp"
 
 #include <fmt/format.h>
 
@@ -81,30 +81,31 @@ std::string_view to_text(ServoMove move) {
 }
 
 ServoRefiner::ServoRefiner(std::shared_ptr<const ShadowView> view,
-                           std::shared_ptr<const ViewChecker> checker, const PinholeCamera& camera,
-                           const Eigen::Vector3d& shadow_centre, const ServoOptions& options)
+                           std::shared_ptr<const ViewValidityChecker> validity,
+                           const PinholeCamera& camera, const Eigen::Vector3d& shadow_centre,
+                           const ServoOptions& options)
     : view_(std::move(view)),
-      checker_(std::move(checker)),
-      camera_((options.check(), detail::scaled(camera.intrinsics(), options.image_width)), Pose(),
-              camera.range(), "servo camera"),
+      validity_(std::move(validity)),
+      camera_((options.check(), planner::detail::scaled(camera.intrinsics(), options.image_width)),
+              Pose(), camera.range(), "servo camera"),
       shadow_centre_(shadow_centre),
       options_(options) {}
 
 std::vector<ServoStep> ServoRefiner::path(const Pose& T_world_cam) const {
-  std::optional<OutermostShadow> outermost;
-  return path(T_world_cam, outermost);
+  std::optional<ExtremePoints> extremes;
+  return path(T_world_cam, extremes);
 }
 
 std::vector<ServoStep> ServoRefiner::path(const Pose& T_world_cam,
-                                          std::optional<OutermostShadow>& outermost) const {
+                                          std::optional<ExtremePoints>& extremes) const {
   std::vector<ServoStep> steps = {{T_world_cam, ServoMove::start}};
   for (int i = 0; i < options_.iterations; ++i) {
     const PinholeCamera camera = camera_.moved_to(steps.back().T_world_cam);
-    const ShadowSight sight = view_->look(camera, outermost);
-    steps.back().score = sight.score;
-    if (!sight.bounds) break;
-    outermost = sight.outermost;
-    const std::optional<ServoStep> next = step(camera, *sight.bounds);
+    const ShadowObservation observation = view_->observe(camera, extremes);
+    steps.back().score = observation.score;
+    if (!observation.bounds) break;
+    extremes = observation.extremes;
+    const std::optional<ServoStep> next = step(camera, *observation.bounds);
     if (!next || stays(next->T_world_cam, steps.back().T_world_cam, camera.intrinsics())) break;
     steps.push_back(*next);
   }
@@ -123,7 +124,7 @@ std::optional<ServoStep> ServoRefiner::step(const PinholeCamera& camera,
   for (const double part : {1.0, 0.5, 0.25, 0.0}) {
     const double forward_m = part * order.forward * distance_m;
     const Pose pose = aimed(camera.centre() + forward_m * direction, direction, k);
-    if (checker_->check(pose) != Rejection::none) continue;
+    if (validity_->check(pose) != InvalidReason::none) continue;
     return ServoStep{pose, forward_m == 0 ? ServoMove::aim : order.move};
   }
   return std::nullopt;

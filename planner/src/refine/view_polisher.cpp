@@ -1,4 +1,4 @@
-#include "vantage/planner/view_polisher.hpp"
+#include "vantage/planner/advanced/view_polisher.hpp"
 
 #include <fmt/format.h>
 
@@ -86,20 +86,20 @@ std::string_view to_text(PolishMove move) {
 
 struct ViewPolisher::Impl {
   std::shared_ptr<const ViewScorer> scorer;
-  std::shared_ptr<const ViewChecker> checker;
+  std::shared_ptr<const ViewValidityChecker> validity;
   PinholeCamera camera;
   Eigen::Vector3d shadow_centre;
-  detail::Utility utility;
+  planner::detail::Utility utility;
 
   /// What a pose is worth if that is more than `best`; else, and if stopped, nothing.
   std::optional<Score> better(const Pose& T_world_cam, Score best, const StopToken& stop) const {
-    if (checker->check(T_world_cam) != Rejection::none) return std::nullopt;
+    if (validity->check(T_world_cam) != InvalidReason::none) return std::nullopt;
     const PinholeCamera view = camera.moved_to(T_world_cam);
     const std::uint64_t share = utility.share(view.centre());
-    const Score needed = detail::Utility::needed(best + 1, share);
+    const Score needed = planner::detail::Utility::needed(best + 1, share);
     ScoreBound score;
     scorer->score({&view, 1}, {&needed, 1}, {&score, 1}, stop);
-    const Score worth = detail::Utility::of(score.score, share);
+    const Score worth = planner::detail::Utility::of(score.score, share);
     return score.exact() && worth > best ? std::optional(worth) : std::nullopt;
   }
 };
@@ -142,17 +142,17 @@ class Walk {
 }  // namespace
 
 ViewPolisher::ViewPolisher(std::shared_ptr<const ViewScorer> scorer,
-                           std::shared_ptr<const ViewChecker> checker, const PinholeCamera& camera,
-                           const Eigen::Vector3d& shadow_centre, const PolishOptions& options,
-                           const std::optional<TravelCost>& travel) {
+                           std::shared_ptr<const ViewValidityChecker> validity,
+                           const PinholeCamera& camera, const Eigen::Vector3d& shadow_centre,
+                           const PolishOptions& options, const std::optional<TravelCost>& travel) {
   options.check();
   if (travel) travel->check();
   const int width = std::min(options.image_width, camera.intrinsics().width);
-  impl_ =
-      std::make_shared<const Impl>(Impl{std::move(scorer), std::move(checker),
-                                        PinholeCamera(detail::scaled(camera.intrinsics(), width),
-                                                      Pose(), camera.range(), "polishing camera"),
-                                        shadow_centre, detail::Utility(travel)});
+  impl_ = std::make_shared<const Impl>(
+      Impl{std::move(scorer), std::move(validity),
+           PinholeCamera(planner::detail::scaled(camera.intrinsics(), width), Pose(),
+                         camera.range(), "polishing camera"),
+           shadow_centre, planner::detail::Utility(travel)});
 }
 
 std::vector<PolishStep> ViewPolisher::path(const Pose& T_world_cam, const StopToken& stop) const {

@@ -2,10 +2,10 @@
 
 #include <tbb/parallel_invoke.h>
 
-#include "vantage/planner/planning_scene.hpp"
-#include "vantage/raycore/scene_builder.hpp"
-#include "vantage/volume/classify.hpp"
-#include "vantage/volume/voxel_surface.hpp"
+#include "vantage/planner/advanced/planning_scene.hpp"
+#include "vantage/raycore/advanced/scene_builder.hpp"
+#include "vantage/volume/advanced/classify.hpp"
+#include "vantage/volume/advanced/voxel_surface.hpp"
 
 namespace vantage {
 
@@ -29,10 +29,10 @@ PlanningScene::PlanningScene(const WorldModel& world, std::shared_ptr<const Stat
 }
 
 Eigen::Vector3d PlanningScene::middle_of_shadow() const {
-  return detail::middle_of_shadow(*grid_, shadow_centres());
+  return planner::detail::middle_of_shadow(*grid_, shadow_centres());
 }
 
-Eigen::Vector3d detail::middle_of_shadow(const StateGrid& grid, PointsView centres) {
+Eigen::Vector3d planner::detail::middle_of_shadow(const StateGrid& grid, PointsView centres) {
   if (centres.size == 0) return grid.geometry().box().centre();
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   for (std::size_t i = 0; i < centres.size; ++i) sum += centres[i].cast<double>();

@@ -5,7 +5,7 @@
 
 #include "vantage/raycore/camera.hpp"
 
-namespace vantage::detail {
+namespace vantage::planner::detail {
 
 /// The same field of view on an image of another width.
 inline Intrinsics scaled(const Intrinsics& k, int width) {
@@ -15,4 +15,4 @@ inline Intrinsics scaled(const Intrinsics& k, int width) {
   return {width, height, k.fx * su, k.fy * sv, (k.cx + 0.5) * su - 0.5, (k.cy + 0.5) * sv - 0.5};
 }
 
-}  // namespace vantage::detail
+}  // namespace vantage::planner::detail

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <bit>
 
-#include "vantage/planner/shadow_view.hpp"
-#include "vantage/raycore/scene.hpp"
+#include "vantage/planner/advanced/shadow_view.hpp"
+#include "vantage/raycore/advanced/scene.hpp"
 
-namespace vantage::detail {
+namespace vantage::planner::detail {
 
 /// The outermost of some pixels of a tile: bit i is pixel (i % 4, i / 4). At least one is set.
 inline ShadowBounds bounds_of(PixelTile tile, unsigned pixels) {
@@ -23,4 +23,4 @@ inline ShadowBounds joined(const ShadowBounds& a, const ShadowBounds& b) {
           std::max(a.bottom, b.bottom)};
 }
 
-}  // namespace vantage::detail
+}  // namespace vantage::planner::detail

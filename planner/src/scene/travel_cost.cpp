@@ -1,4 +1,4 @@
-#include "vantage/planner/travel_cost.hpp"
+#include "vantage/planner/advanced/travel_cost.hpp"
 
 #include <fmt/format.h>
 

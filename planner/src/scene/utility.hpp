@@ -7,10 +7,10 @@
 #include <limits>
 #include <optional>
 
-#include "vantage/planner/travel_cost.hpp"
+#include "vantage/planner/advanced/travel_cost.hpp"
 #include "vantage/planner/view_scorer.hpp"
 
-namespace vantage::detail {
+namespace vantage::planner::detail {
 
 /// What is left of a score after the journey, in integers: a share of 2^32 parts.
 class Utility {
@@ -47,4 +47,4 @@ class Utility {
   std::optional<TravelCost> travel_;
 };
 
-}  // namespace vantage::detail
+}  // namespace vantage::planner::detail

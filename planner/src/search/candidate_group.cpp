@@ -3,58 +3,59 @@
 #include <algorithm>
 #include <numeric>
 
-namespace vantage::detail {
+namespace vantage::planner::detail {
 
 namespace {
 
 /// Enough views to share rays among; few enough to look at all pairs of them, and to stop soon.
-constexpr std::size_t kMostAtSite = 32;
+constexpr std::size_t kMaxAtSite = 32;
 
 }  // namespace
 
-std::vector<SiteRange> sites_of(std::span<const ViewCandidate> candidates) {
-  std::vector<SiteRange> sites;
+std::vector<GroupRange> sites_of(std::span<const ViewCandidate> candidates) {
+  std::vector<GroupRange> camera_groups;
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     const bool same =
-        i > 0 && i - sites.back().first < kMostAtSite &&
+        i > 0 && i - camera_groups.back().first < kMaxAtSite &&
         candidates[i].T_world_cam.translation() == candidates[i - 1].T_world_cam.translation();
-    same ? void(sites.back().last = i + 1) : sites.push_back({i, i + 1});
+    same ? void(camera_groups.back().last = i + 1) : camera_groups.push_back({i, i + 1});
   }
-  return sites;
+  return camera_groups;
 }
 
-std::vector<SiteRange> strewn(const std::vector<SiteRange>& sites) {
-  const std::size_t n = sites.size();
+std::vector<GroupRange> golden_ratio_order(const std::vector<GroupRange>& camera_groups) {
+  const std::size_t n = camera_groups.size();
   std::size_t stride = std::max<std::size_t>(1, std::size_t(0.618 * double(n)));
   while (std::gcd(stride, n) != 1) ++stride;
-  std::vector<SiteRange> order;
-  for (std::size_t i = 0, at = 0; i < n; ++i, at = (at + stride) % n) order.push_back(sites[at]);
+  std::vector<GroupRange> order;
+  for (std::size_t i = 0, at = 0; i < n; ++i, at = (at + stride) % n)
+    order.push_back(camera_groups[at]);
   return order;
 }
 
 std::size_t finished(std::span<const ScoredCandidate> candidates) {
   return std::size_t(
       std::count_if(candidates.begin(), candidates.end(), [](const ScoredCandidate& candidate) {
-        return candidate.rejected != Rejection::none ||
+        return candidate.rejected != InvalidReason::none ||
                candidate.score.known != ScoreBound::Known::nothing;
       }));
 }
 
-void Site::prepare(const Ranking& ranking, const StopToken& stop) {
+void CandidateGroup::prepare(const TopK& top, const StopToken& stop) {
   outcomes_.resize(range_.last - range_.first);
-  std::optional<OutermostShadow> outermost;
+  std::optional<ExtremePoints> extremes;
   for (std::size_t c = 0; c < outcomes_.size() && !stop.stop_requested(); ++c) {
     const Pose& pose = candidates_[range_.first + c].T_world_cam;
-    outcomes_[c].rejected = tools_->checker->check(pose);
+    outcomes_[c].rejected = context_->validity->check(pose);
     outcomes_[c].ready = true;
-    if (outcomes_[c].rejected != Rejection::none) continue;
-    const Score needed = ranking.needed(candidates_[range_.first + c].id);
+    if (outcomes_[c].rejected != InvalidReason::none) continue;
+    const Score needed = top.needed(candidates_[range_.first + c].id);
     int iteration = 0;
-    for (const ServoStep& step : tools_->path(pose, outermost)) {
-      const PinholeCamera view = tools_->camera.moved_to(step.T_world_cam);
-      const std::uint64_t share = tools_->utility.share(view.centre());
+    for (const ServoStep& step : context_->path(pose, extremes)) {
+      const PinholeCamera view = context_->camera.moved_to(step.T_world_cam);
+      const std::uint64_t share = context_->utility.share(view.centre());
       const auto bound = [&] {
-        return tools_->scorer->upper_bound_if_needed(view, Utility::needed(needed, share));
+        return context_->scorer->upper_bound_if_needed(view, Utility::needed(needed, share));
       };
       steps_.push_back({c, iteration++, view, share,
                         step.score ? ScoreBound{ScoreBound::Known::exact, *step.score}
@@ -64,16 +65,16 @@ void Site::prepare(const Ranking& ranking, const StopToken& stop) {
   }
 }
 
-bool Site::matters(const Ranking& ranking) const {
+bool CandidateGroup::matters(const TopK& top) const {
   return std::any_of(steps_.begin(), steps_.end(), [&](const Step& step) {
-    return step.utility() >= ranking.needed(candidates_[range_.first + step.candidate].id);
+    return step.utility() >= top.needed(candidates_[range_.first + step.candidate].id);
   });
 }
 
-void Site::score(const Ranking& ranking, const StopToken& stop) {
+void CandidateGroup::score(const TopK& top, const StopToken& stop) {
   // Views with one centre may share their rays; the group that promises most goes first, so that
   // the others have to beat it.
-  const bool together = tools_->scorer->shares_rays();
+  const bool together = context_->scorer->shares_rays();
   std::vector<std::vector<Step*>> groups;
   for (Step& step : steps_) {
     const auto group = std::find_if(groups.begin(), groups.end(), [&](const auto& members) {
@@ -88,27 +89,27 @@ void Site::score(const Ranking& ranking, const StopToken& stop) {
   };
   std::stable_sort(groups.begin(), groups.end(),
                    [&](const auto& a, const auto& b) { return promise(a) > promise(b); });
-  for (const auto& group : groups) score_group(group, ranking, stop);
+  for (const auto& group : groups) score_group(group, top, stop);
 }
 
-void Site::score_group(std::span<Step* const> group, const Ranking& ranking,
-                       const StopToken& stop) {
+void CandidateGroup::score_group(std::span<Step* const> group, const TopK& top,
+                                 const StopToken& stop) {
   std::vector<Step*> open;
   std::vector<PinholeCamera> views;
   std::vector<Score> needs;
   for (Step* step : group) {
-    const Score need = needed(*step, ranking);
+    const Score need = needed(*step, top);
     if (step->score.exact() || step->score.score < need) continue;
     open.push_back(step), views.push_back(step->view), needs.push_back(need);
   }
   std::vector<ScoreBound> results(open.size());
-  if (!open.empty()) tools_->scorer->score(views, needs, results, stop);
+  if (!open.empty()) context_->scorer->score(views, needs, results, stop);
   for (std::size_t i = 0; i < open.size(); ++i) open[i]->score = results[i];
 }
 
 /// The score with which a step would be its candidate's best, and that among the best of all.
-Score Site::needed(const Step& step, const Ranking& ranking) const {
-  Score utility = ranking.needed(candidates_[range_.first + step.candidate].id);
+Score CandidateGroup::needed(const Step& step, const TopK& top) const {
+  Score utility = top.needed(candidates_[range_.first + step.candidate].id);
   if (const Step* best = best_exact(step.candidate)) {
     const Score to_beat = best->utility() + (best->iteration < step.iteration ? 1 : 0);
     utility = std::max(utility, to_beat);
@@ -117,7 +118,7 @@ Score Site::needed(const Step& step, const Ranking& ranking) const {
 }
 
 /// The first of the best steps whose scores are exact.
-const Site::Step* Site::best_exact(std::size_t candidate) const {
+const CandidateGroup::Step* CandidateGroup::best_exact(std::size_t candidate) const {
   const Step* best = nullptr;
   for (const Step& step : steps_) {
     if (step.candidate != candidate || !step.score.exact()) continue;
@@ -126,9 +127,9 @@ const Site::Step* Site::best_exact(std::size_t candidate) const {
   return best;
 }
 
-ScoredCandidate Site::outcome(std::size_t candidate) const {
+ScoredCandidate CandidateGroup::outcome(std::size_t candidate) const {
   ScoredCandidate result{candidates_[range_.first + candidate], outcomes_[candidate].rejected};
-  if (result.rejected != Rejection::none) return result;
+  if (result.rejected != InvalidReason::none) return result;
   const Step* best = best_exact(candidate);
   bool certain = best != nullptr, unknown = false;
   Score most = 0;
@@ -150,17 +151,17 @@ ScoredCandidate Site::outcome(std::size_t candidate) const {
   return result;
 }
 
-void Site::report(std::span<ScoredCandidate> results, Ranking& ranking) const {
+void CandidateGroup::report(std::span<ScoredCandidate> results, TopK& top) const {
   for (std::size_t c = 0; c < outcomes_.size(); ++c) {
     if (!outcomes_[c].ready) continue;
     const std::size_t index = range_.first + c;
     results[index] = outcome(c);
     if (!results[index].score.exact()) continue;
     const Step* best = best_exact(c);
-    ranking.add(
+    top.add(
         {candidates_[index].id,
          {index, best->view.T_world_cam(), best->iteration, best->score.score, best->utility()}});
   }
 }
 
-}  // namespace vantage::detail
+}  // namespace vantage::planner::detail

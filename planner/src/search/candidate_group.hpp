@@ -6,65 +6,66 @@
 
 #include "scene/utility.hpp"
 #include "search/top_k.hpp"
-#include "vantage/planner/view_search.hpp"
+#include "vantage/planner/advanced/view_search.hpp"
 
-namespace vantage::detail {
+namespace vantage::planner::detail {
 
 /// What searching looks at and asks.
 struct SearchTools {
   std::shared_ptr<const ViewScorer> scorer;
-  std::shared_ptr<const ViewChecker> checker;
+  std::shared_ptr<const ViewValidityChecker> validity;
   std::shared_ptr<const ServoRefiner> servo;  ///< null: none
   PinholeCamera camera;
   Utility utility;
 
   /// @param outermost as of `ServoRefiner::path`.
   std::vector<ServoStep> path(const Pose& T_world_cam,
-                              std::optional<OutermostShadow>& outermost) const {
+                              std::optional<ExtremePoints>& extremes) const {
     if (servo == nullptr) return {{T_world_cam, ServoMove::start}};
-    return servo->path(T_world_cam, outermost);
+    return servo->path(T_world_cam, extremes);
   }
 };
 
 /// Candidates that follow each other and share a position: [first, last) of the list.
-struct SiteRange {
+struct GroupRange {
   std::size_t first = 0, last = 0;
 };
-std::vector<SiteRange> sites_of(std::span<const ViewCandidate> candidates);
+std::vector<GroupRange> sites_of(std::span<const ViewCandidate> candidates);
 
-/// All sites, evenly strewn over the list: one step is about the golden ratio of it.
-std::vector<SiteRange> strewn(const std::vector<SiteRange>& sites);
+/// All groups, evenly golden_ratio_order over the list: one step is about the golden ratio of it.
+std::vector<GroupRange> golden_ratio_order(const std::vector<GroupRange>& camera_groups);
 
 /// How many candidates were rejected, scored, surpassed or passed over.
 std::size_t finished(std::span<const ScoredCandidate> candidates);
 
-/// The work on one site: first `prepare`, which finds where the camera could go and bounds what
+/// The work on one group: first `prepare`, which finds where the camera could go and bounds what
 /// that would be worth, then, if the bound is good enough, `score`. One thread at a time.
-class Site {
+class CandidateGroup {
  public:
-  Site(const SearchTools& tools, std::span<const ViewCandidate> candidates, SiteRange range)
-      : tools_(&tools), candidates_(candidates), range_(range) {}
+  CandidateGroup(const SearchTools& context, std::span<const ViewCandidate> candidates,
+                 GroupRange range)
+      : context_(&context), candidates_(candidates), range_(range) {}
 
   /// @param ranking as of `score`: what certainly is not among the best is bounded less closely.
-  void prepare(const Ranking& ranking, const StopToken& stop);
+  void prepare(const TopK& top, const StopToken& stop);
 
   /// The best utility that any of its candidates may have.
   Score bound() const { return bound_; }
   std::size_t first() const { return range_.first; }
   std::size_t size() const { return range_.last - range_.first; }
-  bool matters(const Ranking& ranking) const;
+  bool matters(const TopK& top) const;
 
   /// Scores what may be among the best.
   /// @param ranking as it was before; must not change meanwhile.
-  void score(const Ranking& ranking, const StopToken& stop);
+  void score(const TopK& top, const StopToken& stop);
 
   /// What came of each candidate, and those with a place among the best.
-  void report(std::span<ScoredCandidate> results, Ranking& ranking) const;
+  void report(std::span<ScoredCandidate> results, TopK& top) const;
 
  private:
   /// One view that a candidate may end at.
   struct Step {
-    std::size_t candidate = 0;  ///< in the site
+    std::size_t candidate = 0;  ///< in the group
     int iteration = 0;
     PinholeCamera view;
     std::uint64_t share = 0;  ///< that the journey leaves of its score
@@ -74,21 +75,21 @@ class Site {
   };
   struct Outcome {
     bool ready = false;
-    Rejection rejected = Rejection::none;
+    InvalidReason rejected = InvalidReason::none;
     const Step* best = nullptr;  ///< of the exact ones
   };
 
-  void score_group(std::span<Step* const> group, const Ranking& ranking, const StopToken& stop);
-  Score needed(const Step& step, const Ranking& ranking) const;
+  void score_group(std::span<Step* const> group, const TopK& top, const StopToken& stop);
+  Score needed(const Step& step, const TopK& top) const;
   const Step* best_exact(std::size_t candidate) const;
   ScoredCandidate outcome(std::size_t candidate) const;
 
-  const SearchTools* tools_;
+  const SearchTools* context_;
   std::span<const ViewCandidate> candidates_;
-  SiteRange range_;
+  GroupRange range_;
   std::vector<Outcome> outcomes_;
   std::vector<Step> steps_;
   Score bound_ = 0;
 };
 
-}  // namespace vantage::detail
+}  // namespace vantage::planner::detail

@@ -3,15 +3,15 @@
 #include <algorithm>
 #include <vector>
 
-#include "vantage/planner/view_search.hpp"
+#include "vantage/planner/advanced/view_search.hpp"
 
-namespace vantage::detail {
+namespace vantage::planner::detail {
 
 /// The best candidates so far, best first; among equals the one with the lower id. A view that
 /// reveals nothing is none.
-class Ranking {
+class TopK {
  public:
-  explicit Ranking(int most) : most_(std::size_t(most)) {}
+  explicit TopK(int most) : max_(std::size_t(most)) {}
 
   struct Entry {
     int id = 0;
@@ -20,7 +20,7 @@ class Ranking {
 
   /// The least utility with which a candidate would be among the best.
   Score needed(int id) const {
-    if (entries_.size() < most_) return 1;
+    if (entries_.size() < max_) return 1;
     const Entry& last = entries_.back();
     return id < last.id ? last.view.utility : last.view.utility + 1;
   }
@@ -33,7 +33,7 @@ class Ranking {
           return a.id < b.id;
         });
     entries_.insert(place, entry);
-    if (entries_.size() > most_) entries_.pop_back();
+    if (entries_.size() > max_) entries_.pop_back();
   }
 
   std::vector<RankedView> views() const {
@@ -43,8 +43,8 @@ class Ranking {
   }
 
  private:
-  std::size_t most_;
+  std::size_t max_;
   std::vector<Entry> entries_;
 };
 
-}  // namespace vantage::detail
+}  // namespace vantage::planner::detail

@@ -6,7 +6,7 @@
 #include "search/candidate_group.hpp"
 #include "search/top_k.hpp"
 
-namespace vantage::detail {
+namespace vantage::planner::detail {
 namespace {
 
 constexpr std::size_t kFirstRoundViews = 512;
@@ -20,19 +20,20 @@ struct Part {
     indices.push_back(index);
     views.push_back(candidates[index]);
   }
-  Ranking::Entry entry(RankedView view) const {
+  TopK::Entry entry(RankedView view) const {
     const int id = views[view.candidate].id;
     view.candidate = indices[view.candidate];
     return {id, view};
   }
 };
 
-/// Takes sites until there are enough views.
-Part next_round(const std::vector<SiteRange>& sites, std::size_t& next, std::size_t most_views,
-                std::span<const ViewCandidate> candidates) {
+/// Takes groups until there are enough views.
+Part next_round(const std::vector<GroupRange>& camera_groups, std::size_t& next,
+                std::size_t max_views, std::span<const ViewCandidate> candidates) {
   Part round;
-  for (; next < sites.size() && round.views.size() < most_views; ++next) {
-    for (std::size_t c = sites[next].first; c < sites[next].last; ++c) round.add(c, candidates);
+  for (; next < camera_groups.size() && round.views.size() < max_views; ++next) {
+    for (std::size_t c = camera_groups[next].first; c < camera_groups[next].last; ++c)
+      round.add(c, candidates);
   }
   return round;
 }
@@ -42,7 +43,7 @@ void report_cheap(const SearchResult& cheap, const Part& round, SearchResult& re
     ScoredCandidate& candidate = result.candidates[round.indices[i]];
     candidate.rejected = cheap.candidates[i].rejected;
     if (cheap.candidates[i].score.known != ScoreBound::Known::nothing) {
-      candidate.score.known = ScoreBound::Known::passed_over;
+      candidate.score.known = ScoreBound::Known::pruned;
     }
   }
 }
@@ -53,12 +54,13 @@ SearchResult ShortlistSearch::run(std::span<const ViewCandidate> candidates,
                                   const StopToken& stop) const {
   SearchResult result;
   for (const ViewCandidate& view : candidates) result.candidates.push_back({view});
-  const std::vector<SiteRange> sites = strewn(sites_of(candidates));
-  Ranking shortlist(size_), best(ranked_);
+  const std::vector<GroupRange> camera_groups = golden_ratio_order(sites_of(candidates));
+  TopK shortlist(size_), best(ranked_);
   std::set<std::size_t> scored;
   std::size_t round_views = kFirstRoundViews;
-  for (std::size_t next = 0; next < sites.size() && !stop.stop_requested(); round_views *= 2) {
-    const Part round = next_round(sites, next, round_views, candidates);
+  for (std::size_t next = 0; next < camera_groups.size() && !stop.stop_requested();
+       round_views *= 2) {
+    const Part round = next_round(camera_groups, next, round_views, candidates);
     const SearchResult cheap = cheap_.run(round.views, stop);
     report_cheap(cheap, round, result);
     for (const RankedView& view : cheap.ranked) shortlist.add(round.entry(view));
@@ -79,4 +81,4 @@ SearchResult ShortlistSearch::run(std::span<const ViewCandidate> candidates,
   return result;
 }
 
-}  // namespace vantage::detail
+}  // namespace vantage::planner::detail

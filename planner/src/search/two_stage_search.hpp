@@ -2,15 +2,15 @@
 
 #include <span>
 
-#include "vantage/planner/view_search.hpp"
+#include "vantage/planner/advanced/view_search.hpp"
 
-namespace vantage::detail {
+namespace vantage::planner::detail {
 
 /// Finds the best of many candidates by a method too dear for all of them: a cheaper one, of which
 /// nothing is certain, picks a shortlist, and those are scored exactly.
 ///
 /// In rounds, each about twice as large as the one before, so that there is an answer soon. What
-/// was not on the shortlist is `passed_over`; the best of the others are found for certain.
+/// was not on the shortlist is `pruned`; the best of the others are found for certain.
 class ShortlistSearch {
  public:
   /// @param size of the shortlist; `cheap` finds at least as many for certain.
@@ -24,4 +24,4 @@ class ShortlistSearch {
   int ranked_, size_;
 };
 
-}  // namespace vantage::detail
+}  // namespace vantage::planner::detail

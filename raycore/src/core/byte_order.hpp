@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <string>
 
-namespace vantage::detail {
+namespace vantage::raycore::detail {
 
 /// The value at `bytes`, which need not be aligned and has the given byte order.
 template <class T>
@@ -24,4 +24,4 @@ void append_little_endian(std::string& bytes, T value) {
   bytes.append(raw.data(), raw.size());
 }
 
-}  // namespace vantage::detail
+}  // namespace vantage::raycore::detail

@@ -1,4 +1,4 @@
-#include "vantage/raycore/file.hpp"
+#include "vantage/raycore/detail/file.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-#include "vantage/raycore/instruction_set.hpp"
+#include "vantage/raycore/detail/instruction_set.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -4,7 +4,7 @@
 
 #include "vantage/raycore/error.hpp"
 
-namespace vantage::detail {
+namespace vantage::raycore::detail {
 
 void check_batch_size(const char* what, std::size_t size, std::size_t expected) {
   if (size == expected) return;
@@ -22,4 +22,4 @@ void check_packets(std::size_t points, std::span<const std::uint32_t> packets,
   }
 }
 
-}  // namespace vantage::detail
+}  // namespace vantage::raycore::detail

@@ -8,7 +8,7 @@
 
 #include "vantage/raycore/points.hpp"
 
-namespace vantage::detail {
+namespace vantage::raycore::detail {
 
 /// Bit l of the result is set if byte l, which is 0 or 1, is 1.
 inline std::uint16_t to_bits(const std::uint8_t (&flags)[kPacketWidth]) {
@@ -27,4 +27,4 @@ void check_batch_size(const char* what, std::size_t size, std::size_t expected);
 void check_packets(std::size_t points, std::span<const std::uint32_t> packets,
                    std::initializer_list<std::size_t> sizes);
 
-}  // namespace vantage::detail
+}  // namespace vantage::raycore::detail

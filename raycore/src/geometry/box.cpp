@@ -17,7 +17,8 @@ Box::Box(const Eigen::Vector3d& min, const Eigen::Vector3d& max, std::string_vie
       std::string(where),
       fmt::format("min {} and max {} give the size {}; expected finite corners in metres with "
                   "min < max along x, y and z",
-                  detail::to_text(min_), detail::to_text(max_), detail::to_text(size())));
+                  raycore::detail::to_text(min_), raycore::detail::to_text(max_),
+                  raycore::detail::to_text(size())));
 }
 
 bool Box::contains(const Eigen::Vector3d& point) const {

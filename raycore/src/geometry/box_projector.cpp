@@ -1,4 +1,4 @@
-#include "vantage/raycore/box_projector.hpp"
+#include "vantage/raycore/detail/box_projector.hpp"
 
 #include <algorithm>
 #include <limits>

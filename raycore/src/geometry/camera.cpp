@@ -7,8 +7,8 @@
 
 #include "core/packet_bits.hpp"
 #include "geometry/pixel_direction.hpp"
+#include "vantage/raycore/detail/multiversion.hpp"
 #include "vantage/raycore/error.hpp"
-#include "vantage/raycore/multiversion.hpp"
 
 namespace vantage {
 namespace {
@@ -79,7 +79,7 @@ constexpr Multiversion<in_view_body> in_view_kernel;
     for (std::size_t lane = 0; lane < kPacketWidth; ++lane) {
       flags[lane] = std::uint8_t(is_in_view(c, b, packet.x[lane], packet.y[lane], packet.z[lane]));
     }
-    masks[i] = detail::to_bits(flags);
+    masks[i] = raycore::detail::to_bits(flags);
   }
 }
 constexpr Multiversion<in_view_packets_body> in_view_packets_kernel;
@@ -157,7 +157,7 @@ std::optional<ImagePoint> PinholeCamera::project(const Eigen::Vector3d& p_world)
 }
 
 PixelRay PinholeCamera::pixel_ray(double u, double v) const {
-  const detail::PixelRotation R(T_world_cam_.rotation());
+  const raycore::detail::PixelRotation R(T_world_cam_.rotation());
   const double x = (u - intrinsics_.cx) / intrinsics_.fx, y = (v - intrinsics_.cy) / intrinsics_.fy;
   return {centre(), {R.turned<0>(x, y), R.turned<1>(x, y), R.turned<2>(x, y)}};
 }
@@ -208,7 +208,7 @@ void PinholeCamera::in_view(PointsView p_world, std::span<std::uint8_t> result) 
 
 void PinholeCamera::in_view(PointsView p_world, std::span<const std::uint32_t> packets,
                             std::span<std::uint16_t> masks) const {
-  detail::check_packets(p_world.size, packets, {masks.size()});
+  raycore::detail::check_packets(p_world.size, packets, {masks.size()});
   in_view_packets_kernel(WorldToCamera(T_world_cam_), ViewBounds(intrinsics_, range_), p_world,
                          packets.data(), packets.size(), masks.data());
 }

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <string>
 
-namespace vantage::detail {
+namespace vantage::raycore::detail {
 
 /// No mesh reaches further from its origin, metres: beyond it a float is off by 3 cm and more.
 inline constexpr double kMaxCoordinate = 1e6;
@@ -24,4 +24,4 @@ std::string to_text(const Vector& p) {
   return fmt::format("({}, {}, {})", p.x(), p.y(), p.z());
 }
 
-}  // namespace vantage::detail
+}  // namespace vantage::raycore::detail

@@ -7,8 +7,8 @@
 #include <string>
 #include <utility>
 
+#include "vantage/raycore/detail/multiversion.hpp"
 #include "vantage/raycore/error.hpp"
-#include "vantage/raycore/multiversion.hpp"
 
 namespace vantage {
 namespace {
@@ -59,7 +59,7 @@ DepthImage::DepthImage(int width, int height, std::vector<float> metres, std::st
   if (!mark_unknown(metres_.data(), metres_.size())) refuse_negative(metres_, width, where);
 }
 
-DepthImage DepthImage::from_counts(const CountImage& counts, double depth_scale_mm,
+DepthImage DepthImage::from_counts(const RawDepthImage& counts, double depth_scale_mm,
                                    std::string_view where) {
   if (!(std::isfinite(depth_scale_mm) && depth_scale_mm > 0)) {
     throw bad_input(

@@ -13,7 +13,7 @@
 namespace vantage {
 namespace {
 
-constexpr int kMostSteps = 50;      // Newton's method takes 3 or 4
+constexpr int kMaxSteps = 50;       // Newton's method takes 3 or 4
 constexpr double kClose = 1e-12;    // on the plane z = 1
 constexpr int kStepsPerLine = 32;   // from the principal point to the border
 constexpr int kBetweenSteps = 8;    // looks between two such steps
@@ -86,7 +86,7 @@ Eigen::Vector2d Lens::project(const Eigen::Vector3d& p_cam) const {
 }
 
 bool Lens::undistort(const Eigen::Vector2d& distorted, Eigen::Vector2d& xy) const {
-  for (int step = 0; step < kMostSteps; ++step) {
+  for (int step = 0; step < kMaxSteps; ++step) {
     const Eigen::Vector2d off = distort(xy) - distorted;
     const Eigen::Matrix2d by_xy = slope(xy);
     if (!(by_xy.determinant() > 0)) return false;

@@ -2,7 +2,7 @@
 
 #include <Eigen/Core>
 
-namespace vantage::detail {
+namespace vantage::raycore::detail {
 
 /// Turns the directions (x, y, 1) of a camera's pixels into the world. Written out, so that it
 /// comes out the same to the bit for one pixel and for sixteen: Eigen's products add in an order of
@@ -20,4 +20,4 @@ struct PixelRotation {
   }
 };
 
-}  // namespace vantage::detail
+}  // namespace vantage::raycore::detail

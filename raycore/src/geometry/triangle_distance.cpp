@@ -6,9 +6,9 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 
-#include "vantage/raycore/segment_distance.hpp"
+#include "vantage/raycore/detail/segment_distance.hpp"
 
-namespace vantage::detail {
+namespace vantage::raycore::detail {
 namespace {
 
 using Eigen::Vector3d;
@@ -92,4 +92,4 @@ bool closer_to_box_than(double distance_m, const Vector3d& half, const TriangleC
   return features_closer(distance_m * distance_m, half, triangle);
 }
 
-}  // namespace vantage::detail
+}  // namespace vantage::raycore::detail

@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <array>
 
-namespace vantage::detail {
+namespace vantage::raycore::detail {
 
 using TriangleCorners = std::array<Eigen::Vector3d, 3>;
 
@@ -15,4 +15,4 @@ double squared_distance(const Eigen::Vector3d& point, const TriangleCorners& tri
 bool closer_to_box_than(double distance_m, const Eigen::Vector3d& half,
                         const TriangleCorners& triangle);
 
-}  // namespace vantage::detail
+}  // namespace vantage::raycore::detail

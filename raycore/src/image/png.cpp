@@ -13,8 +13,8 @@
 #include <string>
 #include <vector>
 
+#include "vantage/raycore/detail/file.hpp"
 #include "vantage/raycore/error.hpp"
-#include "vantage/raycore/file.hpp"
 #include "vantage/raycore/image_io.hpp"
 
 namespace vantage {
@@ -223,14 +223,14 @@ void write_png(const fs::path& path, const ColorImage& image) {
   write_image(path, image, PNG_COLOR_TYPE_RGB);
 }
 
-void write_png(const fs::path& path, const CountImage& image) {
+void write_png(const fs::path& path, const RawDepthImage& image) {
   write_image(path, image, PNG_COLOR_TYPE_GRAY);
 }
 
-CountImage read_png_counts(const fs::path& path) {
+RawDepthImage read_png_counts(const fs::path& path) {
   const std::vector<std::uint8_t> bytes = read_file(path);
   const Size size = check_header(bytes, path.string());
-  CountImage image(int(size.width), int(size.height));
+  RawDepthImage image(int(size.width), int(size.height));
   std::vector<png_bytep> rows = row_pointers(image);
   Decoder decoder(bytes);
   if (!decoder.decode(rows.data())) {

@@ -88,7 +88,7 @@ Vector3d onto_duck(Vector3d p, bool level, int rounds) {
 
 /// The floor lies just below a layer of the grid's corners: the vertices of the cells under that
 /// layer are on the floor, and no others.
-detail::SamplingGrid grid() {
+raycore::detail::SamplingGrid grid() {
   return {{-0.7, -0.5 * 37 * kCell, kFloor - 1.999 * kCell}, kCell, {68, 38, 45}};
 }
 
@@ -97,7 +97,7 @@ bool on_floor(const Vector3d& p) {
 }
 
 /// Vertices of the floor that have neighbours above it.
-std::vector<bool> find_rim(const detail::QuadMesh& duck) {
+std::vector<bool> find_rim(const raycore::detail::QuadMesh& duck) {
   std::vector<bool> rim(duck.vertices.size(), false);
   for (const auto& quad : duck.quads) {
     const auto floored = [&](std::uint32_t v) { return on_floor(duck.vertices[v]); };
@@ -108,7 +108,7 @@ std::vector<bool> find_rim(const detail::QuadMesh& duck) {
 }
 
 /// Moves every vertex but the rim's to the mean of itself and its neighbours' mean.
-void relax(detail::QuadMesh& duck, const std::vector<bool>& rim) {
+void relax(raycore::detail::QuadMesh& duck, const std::vector<bool>& rim) {
   std::vector<Vector3d> sum(duck.vertices.size(), Vector3d::Zero());
   std::vector<int> count(duck.vertices.size(), 0);
   for (const auto& quad : duck.quads) {
@@ -123,8 +123,8 @@ void relax(detail::QuadMesh& duck, const std::vector<bool>& rim) {
 }
 
 /// Puts every vertex where it belongs: on the floor, on the duck, or on the rim between them.
-void project(detail::QuadMesh& duck, const std::vector<bool>& floored, const std::vector<bool>& rim,
-             int rounds) {
+void project(raycore::detail::QuadMesh& duck, const std::vector<bool>& floored,
+             const std::vector<bool>& rim, int rounds) {
   for (std::size_t i = 0; i < duck.vertices.size(); ++i) {
     Vector3d& p = duck.vertices[i];
     if (floored[i]) p.z() = kFloor;
@@ -133,8 +133,8 @@ void project(detail::QuadMesh& duck, const std::vector<bool>& floored, const std
   }
 }
 
-detail::QuadMesh unit_duck() {
-  detail::QuadMesh duck = detail::surface_nets(
+raycore::detail::QuadMesh unit_duck() {
+  raycore::detail::QuadMesh duck = raycore::detail::surface_nets(
       [](const Vector3d& p) { return std::max(duck_distance(p), kFloor - p.z()); }, grid());
   const std::vector<bool> rim = find_rim(duck);
   std::vector<bool> floored;
@@ -150,8 +150,8 @@ detail::QuadMesh unit_duck() {
 }  // namespace
 
 TriangleMesh duck_solid(double length_m) {
-  detail::check_length(length_m, "length_m");
-  detail::QuadMesh duck = unit_duck();
+  raycore::detail::check_length(length_m, "length_m");
+  raycore::detail::QuadMesh duck = unit_duck();
   Eigen::AlignedBox3d bounds;
   for (const Vector3d& p : duck.vertices) bounds.extend(p);
   const double scale = length_m / bounds.sizes().x();
@@ -159,7 +159,7 @@ TriangleMesh duck_solid(double length_m) {
   for (const Vector3d& p : duck.vertices) {
     vertices.push_back((scale * (p - bounds.center())).cast<float>());
   }
-  TriangleMesh mesh(std::move(vertices), detail::cut_in_two(duck), "duck");
+  TriangleMesh mesh(std::move(vertices), raycore::detail::cut_in_two(duck), "duck");
   if (mesh.dropped_degenerate() > 0) {
     throw bad_input("length_m", "the duck is so small that floats cannot hold its faces apart");
   }

@@ -6,7 +6,7 @@
 
 #include "vantage/raycore/error.hpp"
 
-namespace vantage::detail {
+namespace vantage::raycore::detail {
 
 /// A place in a file; it is made into text only when something is wrong there. Owns nothing.
 struct FilePlace {
@@ -24,4 +24,4 @@ struct FilePlace {
   [[noreturn]] void fail(std::string message) const { throw bad_input(text(), std::move(message)); }
 };
 
-}  // namespace vantage::detail
+}  // namespace vantage::raycore::detail

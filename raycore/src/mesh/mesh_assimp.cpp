@@ -9,7 +9,7 @@
 
 #include "mesh/mesh_readers.hpp"
 
-namespace vantage::detail {
+namespace vantage::raycore::detail {
 namespace {
 
 struct PlacedNode {
@@ -121,4 +121,4 @@ void read_with_assimp(const std::filesystem::path& path, MeshCollector& mesh) {
   add_scene(*scene, mesh);
 }
 
-}  // namespace vantage::detail
+}  // namespace vantage::raycore::detail

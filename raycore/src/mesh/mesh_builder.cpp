@@ -7,7 +7,7 @@
 
 #include "geometry/coordinates.hpp"
 
-namespace vantage::detail {
+namespace vantage::raycore::detail {
 
 void MeshCollector::reserve(std::size_t vertices, std::size_t triangles) {
   vertices_.reserve(vertices);
@@ -67,4 +67,4 @@ TriangleMesh MeshCollector::finish() && {
                                                   found));
 }
 
-}  // namespace vantage::detail
+}  // namespace vantage::raycore::detail

@@ -8,7 +8,7 @@
 #include "mesh/file_place.hpp"
 #include "vantage/raycore/triangle_mesh.hpp"
 
-namespace vantage::detail {
+namespace vantage::raycore::detail {
 
 /// Where the readers of mesh files put what they find: it checks each vertex and index where the
 /// place in the file is still known, turns units into metres, and splits polygons.
@@ -43,4 +43,4 @@ class MeshCollector {
   std::vector<Triangle> triangles_;
 };
 
-}  // namespace vantage::detail
+}  // namespace vantage::raycore::detail

@@ -6,8 +6,8 @@
 
 #include "core/byte_order.hpp"
 #include "mesh/mesh_readers.hpp"
+#include "vantage/raycore/detail/file.hpp"
 #include "vantage/raycore/error.hpp"
-#include "vantage/raycore/file.hpp"
 
 namespace vantage {
 namespace {
@@ -23,16 +23,16 @@ std::string lower_cased_ending(const std::filesystem::path& path) {
 TriangleMesh read(const std::filesystem::path& path, double unit_m) {
   const std::vector<std::uint8_t> bytes = read_file(path);
   if (bytes.empty()) throw bad_input(path.string(), "is empty; expected a mesh");
-  detail::MeshCollector mesh(path.string(), unit_m);
+  raycore::detail::MeshCollector mesh(path.string(), unit_m);
   const std::string ending = lower_cased_ending(path);
   if (ending == ".stl") {
-    detail::read_stl(bytes, mesh);
+    raycore::detail::read_stl(bytes, mesh);
   } else if (ending == ".ply") {
-    detail::read_ply(bytes, mesh);
+    raycore::detail::read_ply(bytes, mesh);
   } else if (ending == ".obj") {
-    detail::read_obj(bytes, mesh);
+    raycore::detail::read_obj(bytes, mesh);
   } else {
-    detail::read_with_assimp(path, mesh);
+    raycore::detail::read_with_assimp(path, mesh);
   }
   return std::move(mesh).finish();
 }
@@ -60,11 +60,11 @@ void write_ply(const std::filesystem::path& path, const TriangleMesh& mesh) {
       mesh.vertices().size(), mesh.triangles().size());
   bytes.reserve(bytes.size() + 12 * mesh.vertices().size() + 13 * mesh.triangles().size());
   for (const Eigen::Vector3f& p : mesh.vertices()) {
-    for (const float coordinate : p) detail::append_little_endian(bytes, coordinate);
+    for (const float coordinate : p) raycore::detail::append_little_endian(bytes, coordinate);
   }
   for (const Triangle& triangle : mesh.triangles()) {
     bytes.push_back(3);
-    for (const std::uint32_t index : triangle) detail::append_little_endian(bytes, index);
+    for (const std::uint32_t index : triangle) raycore::detail::append_little_endian(bytes, index);
   }
   write_file(path, bytes);
 }

@@ -6,7 +6,7 @@
 #include "mesh/mesh_readers.hpp"
 #include "mesh/text_scanner.hpp"
 
-namespace vantage::detail {
+namespace vantage::raycore::detail {
 namespace {
 
 /// Texture and normal indices are not used, but a corner that is no corner is found.
@@ -65,4 +65,4 @@ void read_obj(std::span<const std::uint8_t> bytes, MeshCollector& mesh) {
   } while (text.next_line());
 }
 
-}  // namespace vantage::detail
+}  // namespace vantage::raycore::detail

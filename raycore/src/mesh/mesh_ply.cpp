@@ -12,7 +12,7 @@
 #include "mesh/ply_header.hpp"
 #include "mesh/text_scanner.hpp"
 
-namespace vantage::detail {
+namespace vantage::raycore::detail {
 
 /// The values behind a PLY header, one after the other, whatever the file's format. A value comes
 /// as double, which holds every PLY type exactly. Every error names the place.
@@ -279,4 +279,4 @@ void read_ply(std::span<const std::uint8_t> bytes, MeshCollector& mesh) {
   read_elements(body, header, mesh);
 }
 
-}  // namespace vantage::detail
+}  // namespace vantage::raycore::detail

@@ -6,7 +6,7 @@
 
 #include "mesh/mesh_builder.hpp"
 
-namespace vantage::detail {
+namespace vantage::raycore::detail {
 
 // The readers behind read_mesh, one for each format. Each takes the file's bytes and fills the
 // collector, which knows the file's name. They allocate no more than a small multiple of the
@@ -23,4 +23,4 @@ inline std::string_view as_text(std::span<const std::uint8_t> bytes) {
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
-}  // namespace vantage::detail
+}  // namespace vantage::raycore::detail

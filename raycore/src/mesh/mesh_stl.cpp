@@ -8,7 +8,7 @@
 #include "mesh/mesh_readers.hpp"
 #include "mesh/text_scanner.hpp"
 
-namespace vantage::detail {
+namespace vantage::raycore::detail {
 namespace {
 
 constexpr std::size_t kHeaderBytes = 84;
@@ -123,4 +123,4 @@ void read_stl(std::span<const std::uint8_t> bytes, MeshCollector& mesh) {
   }
 }
 
-}  // namespace vantage::detail
+}  // namespace vantage::raycore::detail

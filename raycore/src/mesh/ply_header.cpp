@@ -6,7 +6,7 @@
 #include <array>
 #include <utility>
 
-namespace vantage::detail {
+namespace vantage::raycore::detail {
 namespace {
 
 std::optional<PlyType> find_type(std::string_view name) {
@@ -174,4 +174,4 @@ void check_ply_counts(const PlyHeader& header, std::uint64_t size, const std::st
   }
 }
 
-}  // namespace vantage::detail
+}  // namespace vantage::raycore::detail

@@ -7,7 +7,7 @@
 
 #include "mesh/text_scanner.hpp"
 
-namespace vantage::detail {
+namespace vantage::raycore::detail {
 
 enum class PlyFormat { ascii, little_endian, big_endian };
 enum class PlyType { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
@@ -42,4 +42,4 @@ PlyHeader read_ply_header(TextScanner& text);
 /// @throws Error bad_input at the file if `size` bytes of data cannot hold what the header claims.
 void check_ply_counts(const PlyHeader& header, std::uint64_t size, const std::string& file);
 
-}  // namespace vantage::detail
+}  // namespace vantage::raycore::detail

@@ -14,7 +14,7 @@
 #include "vantage/raycore/error.hpp"
 #include "vantage/raycore/solids.hpp"
 
-namespace vantage::detail {
+namespace vantage::raycore::detail {
 
 void check_length(double length_m, const std::string& name) {
   if (std::isfinite(length_m) && length_m > 0) return;
@@ -92,7 +92,7 @@ TriangleMesh turned(const std::vector<ProfilePoint>& profile, int segments,
   return ring_stack(rings, where);
 }
 
-}  // namespace vantage::detail
+}  // namespace vantage::raycore::detail
 
 namespace vantage {
 namespace {
@@ -100,35 +100,35 @@ namespace {
 /// A profile of (x, z), clockwise where x is to the right and z up, drawn out along y.
 TriangleMesh drawn_along_y(const std::vector<Eigen::Vector2d>& profile, double length_m,
                            const std::string& where) {
-  detail::Ring front, back;
+  raycore::detail::Ring front, back;
   for (const Eigen::Vector2d& p : profile) {
     front.emplace_back(p.x(), -length_m / 2, p.y());
     back.emplace_back(p.x(), length_m / 2, p.y());
   }
-  return detail::ring_stack({front, back}, where);
+  return raycore::detail::ring_stack({front, back}, where);
 }
 
 /// Counter-clockwise from above.
-detail::Ring rectangle(double half_x, double half_y, double z) {
+raycore::detail::Ring rectangle(double half_x, double half_y, double z) {
   return {{-half_x, -half_y, z}, {half_x, -half_y, z}, {half_x, half_y, z}, {-half_x, half_y, z}};
 }
 
 }  // namespace
 
 TriangleMesh box_solid(const Eigen::Vector3d& size_m) {
-  detail::check_size(size_m);
+  raycore::detail::check_size(size_m);
   return TriangleMesh::from_box(Box(-0.5 * size_m, 0.5 * size_m, "size_m"));
 }
 
 TriangleMesh wedge_solid(const Eigen::Vector3d& size_m) {
-  detail::check_size(size_m);
+  raycore::detail::check_size(size_m);
   const double x = size_m.x() / 2, z = size_m.z() / 2;
   return drawn_along_y({{-x, -z}, {x, z}, {x, -z}}, size_m.y(), "wedge");
 }
 
 TriangleMesh bracket_solid(const Eigen::Vector3d& size_m, double thickness_m) {
-  detail::check_size(size_m);
-  detail::check_length(thickness_m, "thickness_m");
+  raycore::detail::check_size(size_m);
+  raycore::detail::check_length(thickness_m, "thickness_m");
   if (thickness_m >= std::min(size_m.x(), size_m.z())) {
     throw bad_input("thickness_m",
                     fmt::format("is {} m; expected less than the bracket's depth of {} m and its "
@@ -142,15 +142,15 @@ TriangleMesh bracket_solid(const Eigen::Vector3d& size_m, double thickness_m) {
 }
 
 TriangleMesh bin_solid(const Eigen::Vector3d& size_m, double wall_m) {
-  detail::check_size(size_m);
-  detail::check_length(wall_m, "wall_m");
+  raycore::detail::check_size(size_m);
+  raycore::detail::check_length(wall_m, "wall_m");
   if (2 * wall_m >= std::min(size_m.x(), size_m.y()) || wall_m >= size_m.z()) {
     throw bad_input("wall_m", fmt::format("is {} m; expected less than half of the bin's length "
                                           "and width ({} m, {} m) and less than its height of {} m",
                                           wall_m, size_m.x(), size_m.y(), size_m.z()));
   }
   const double x = size_m.x() / 2, y = size_m.y() / 2, z = size_m.z() / 2;
-  return detail::ring_stack(
+  return raycore::detail::ring_stack(
       {rectangle(x, y, -z), rectangle(x, y, z), rectangle(x - wall_m, y - wall_m, z),
        rectangle(x - wall_m, y - wall_m, wall_m - z)},
       "bin");
@@ -170,29 +170,30 @@ void check_segments(int segments) {
 }  // namespace
 
 TriangleMesh cylinder_solid(double radius_m, double height_m, int segments) {
-  detail::check_length(radius_m, "radius_m");
-  detail::check_length(height_m, "height_m");
+  raycore::detail::check_length(radius_m, "radius_m");
+  raycore::detail::check_length(height_m, "height_m");
   check_segments(segments);
   const double h = height_m / 2;
-  return detail::turned({{0, -h}, {radius_m, -h}, {radius_m, h}, {0, h}}, segments, "cylinder");
+  return raycore::detail::turned({{0, -h}, {radius_m, -h}, {radius_m, h}, {0, h}}, segments,
+                                 "cylinder");
 }
 
 TriangleMesh sphere_solid(double radius_m, int segments) {
-  detail::check_length(radius_m, "radius_m");
+  raycore::detail::check_length(radius_m, "radius_m");
   check_segments(segments);
-  std::vector<detail::ProfilePoint> profile = {{0, -radius_m}};
+  std::vector<raycore::detail::ProfilePoint> profile = {{0, -radius_m}};
   for (int i = 1; i < segments / 2; ++i) {
     const double polar = 2 * std::numbers::pi * i / segments;
     profile.push_back({radius_m * std::sin(polar), -radius_m * std::cos(polar)});
   }
   profile.push_back({0, radius_m});
-  return detail::turned(profile, segments, "sphere");
+  return raycore::detail::turned(profile, segments, "sphere");
 }
 
 TriangleMesh cup_solid(double radius_m, double height_m, double wall_m, int segments) {
-  detail::check_length(radius_m, "radius_m");
-  detail::check_length(height_m, "height_m");
-  detail::check_length(wall_m, "wall_m");
+  raycore::detail::check_length(radius_m, "radius_m");
+  raycore::detail::check_length(height_m, "height_m");
+  raycore::detail::check_length(wall_m, "wall_m");
   check_segments(segments);
   if (wall_m >= radius_m || wall_m >= height_m) {
     throw bad_input("wall_m", fmt::format("is {} m; expected less than the radius of {} m and the "
@@ -200,7 +201,7 @@ TriangleMesh cup_solid(double radius_m, double height_m, double wall_m, int segm
                                           wall_m, radius_m, height_m));
   }
   const double h = height_m / 2, inner = radius_m - wall_m;
-  return detail::turned(
+  return raycore::detail::turned(
       {{0, -h}, {radius_m, -h}, {radius_m, h}, {inner, h}, {inner, wall_m - h}, {0, wall_m - h}},
       segments, "cup");
 }

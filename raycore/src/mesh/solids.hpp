@@ -6,7 +6,7 @@
 
 #include "vantage/raycore/triangle_mesh.hpp"
 
-namespace vantage::detail {
+namespace vantage::raycore::detail {
 
 /// @throws Error bad_input, `name` as the place, unless the length is positive and finite.
 void check_length(double length_m, const std::string& name);
@@ -34,4 +34,4 @@ struct ProfilePoint {
 TriangleMesh turned(const std::vector<ProfilePoint>& profile, int segments,
                     const std::string& where);
 
-}  // namespace vantage::detail
+}  // namespace vantage::raycore::detail

@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <utility>
 
-namespace vantage::detail {
+namespace vantage::raycore::detail {
 namespace {
 
 using Index = std::array<int, 3>;
@@ -110,4 +110,4 @@ std::vector<Triangle> cut_in_two(const QuadMesh& mesh) {
   return triangles;
 }
 
-}  // namespace vantage::detail
+}  // namespace vantage::raycore::detail

@@ -8,7 +8,7 @@
 
 #include "vantage/raycore/triangle_mesh.hpp"
 
-namespace vantage::detail {
+namespace vantage::raycore::detail {
 
 /// Below 0 inside.
 using Field = std::function<double(const Eigen::Vector3d&)>;
@@ -39,4 +39,4 @@ QuadMesh surface_nets(const Field& field, const SamplingGrid& grid);
 /// Cuts each quadrilateral along its shorter diagonal.
 std::vector<Triangle> cut_in_two(const QuadMesh& mesh);
 
-}  // namespace vantage::detail
+}  // namespace vantage::raycore::detail

@@ -5,7 +5,7 @@
 #include <charconv>
 #include <system_error>
 
-namespace vantage::detail {
+namespace vantage::raycore::detail {
 
 std::string in_quotes(std::string_view word) {
   constexpr std::size_t kLongest = 40;
@@ -86,4 +86,4 @@ bool TextScanner::at_blank() const {
   return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f';
 }
 
-}  // namespace vantage::detail
+}  // namespace vantage::raycore::detail

@@ -8,7 +8,7 @@
 
 #include "mesh/file_place.hpp"
 
-namespace vantage::detail {
+namespace vantage::raycore::detail {
 
 /// `word` in quotes for a message: shortened, and without what a terminal would obey.
 std::string in_quotes(std::string_view word);
@@ -50,4 +50,4 @@ class TextScanner {
   std::size_t line_ = 1;
 };
 
-}  // namespace vantage::detail
+}  // namespace vantage::raycore::detail

@@ -15,11 +15,11 @@ namespace {
 
 void check_vertices(const std::vector<Eigen::Vector3f>& vertices, std::string_view where) {
   for (std::size_t i = 0; i < vertices.size(); ++i) {
-    if (detail::is_coordinate(vertices[i])) continue;
+    if (raycore::detail::is_coordinate(vertices[i])) continue;
     throw bad_input(
         fmt::format("{}, vertex {}", where, i),
         fmt::format("lies at {} m; expected finite coordinates below {:g} m (is the unit right?)",
-                    detail::to_text(vertices[i]), detail::kMaxCoordinate));
+                    raycore::detail::to_text(vertices[i]), raycore::detail::kMaxCoordinate));
   }
 }
 

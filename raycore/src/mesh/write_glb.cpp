@@ -10,8 +10,8 @@
 
 #include "core/byte_order.hpp"
 #include "geometry/coordinates.hpp"
+#include "vantage/raycore/detail/file.hpp"
 #include "vantage/raycore/error.hpp"
-#include "vantage/raycore/file.hpp"
 #include "vantage/raycore/mesh_io.hpp"
 
 namespace vantage {
@@ -31,7 +31,7 @@ void check_look(const ColoredMesh& mesh) {
   if (color_fits && mesh.opacity >= 0 && mesh.opacity <= 1) return;
   throw bad_input(fmt::format("mesh \"{}\"", mesh.name),
                   fmt::format("has the colour {} and the opacity {}; expected numbers from 0 to 1",
-                              detail::to_text(mesh.color), mesh.opacity));
+                              raycore::detail::to_text(mesh.color), mesh.opacity));
 }
 
 /// IEC 61966-2-1. Six digits are more than enough for a colour.
@@ -54,7 +54,7 @@ Json material(const ColoredMesh& mesh) {
 }
 
 void append(std::string& bytes, const Eigen::Vector3f& v) {
-  for (const float coordinate : v) detail::append_little_endian(bytes, coordinate);
+  for (const float coordinate : v) raycore::detail::append_little_endian(bytes, coordinate);
 }
 
 void append_corners(std::string& bytes, const TriangleMesh& mesh) {
@@ -135,12 +135,12 @@ class Document {
     file.reserve(length);
     for (const std::uint32_t word :
          {kMagic, 2U, std::uint32_t(length), std::uint32_t(text.size()), kJsonChunk}) {
-      detail::append_little_endian(file, word);
+      raycore::detail::append_little_endian(file, word);
     }
     file += text;
     if (bytes_.empty()) return file;
-    detail::append_little_endian(file, std::uint32_t(bytes_.size()));
-    detail::append_little_endian(file, kBinaryChunk);
+    raycore::detail::append_little_endian(file, std::uint32_t(bytes_.size()));
+    raycore::detail::append_little_endian(file, kBinaryChunk);
     return file + bytes_;
   }
 

@@ -1,4 +1,4 @@
-#include "vantage/raycore/picture.hpp"
+#include "vantage/raycore/advanced/picture.hpp"
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
@@ -102,7 +102,8 @@ class Painter {
   }
 
   void paint(int band, ColorImage& image) const {
-    const std::vector<detail::Pixel> pixels = detail::pixels_of_band(camera_.intrinsics(), band);
+    const std::vector<raycore::detail::Pixel> pixels =
+        raycore::detail::pixels_of_band(camera_.intrinsics(), band);
     std::vector<Eigen::Vector3f> light(pixels.size(), Eigen::Vector3f::Zero());
     for (const Sample& sample : samples_) add_sample(sample, pixels, light);
     for (std::size_t i = 0; i < pixels.size(); ++i) {
@@ -123,7 +124,7 @@ class Painter {
     Points from, to_sky, to_sun;
   };
 
-  void add_sample(const Sample& sample, const std::vector<detail::Pixel>& pixels,
+  void add_sample(const Sample& sample, const std::vector<raycore::detail::Pixel>& pixels,
                   std::vector<Eigen::Vector3f>& light) const {
     Points directions(pixels.size());
     for (std::size_t i = 0; i < pixels.size(); ++i) {
@@ -204,9 +205,10 @@ std::optional<ColorImage> render_picture(const Scene& scene, std::span<const Mat
   }
   const Painter painter(scene, materials, camera, options);
   ColorImage image(camera.intrinsics().width, camera.intrinsics().height);
-  tbb::parallel_for(std::size_t(0), detail::band_count(image.height), [&](std::size_t band) {
-    if (!stop.stop_requested()) painter.paint(int(band), image);
-  });
+  tbb::parallel_for(std::size_t(0), raycore::detail::band_count(image.height),
+                    [&](std::size_t band) {
+                      if (!stop.stop_requested()) painter.paint(int(band), image);
+                    });
   if (stop.stop_requested()) return std::nullopt;
   return image;
 }

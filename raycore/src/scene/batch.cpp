@@ -6,7 +6,7 @@
 
 #include "vantage/raycore/error.hpp"
 
-namespace vantage::detail {
+namespace vantage::raycore::detail {
 namespace {
 
 std::string text(const Eigen::Vector3f& p) {
@@ -48,4 +48,4 @@ void refuse_first_ray(const PointLanes& origins, PointsView directions) {
   throw std::logic_error("no ray is invalid");
 }
 
-}  // namespace vantage::detail
+}  // namespace vantage::raycore::detail

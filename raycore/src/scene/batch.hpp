@@ -10,7 +10,7 @@
 #include "core/packet_bits.hpp"
 #include "scene/ray_packet.hpp"
 
-namespace vantage::detail {
+namespace vantage::raycore::detail {
 
 /// Rays that one task traces. A multiple of the packet width, and fixed: packets then hold the same
 /// rays at any number of threads, and with that every bit of the result is the same.
@@ -38,4 +38,4 @@ bool for_each_block(std::size_t count, const Block& block) {
                                  const Eigen::Vector3f& to);
 [[noreturn]] void refuse_first_ray(const PointLanes& origins, PointsView directions);
 
-}  // namespace vantage::detail
+}  // namespace vantage::raycore::detail

@@ -10,12 +10,12 @@
 #include "geometry/triangle_distance.hpp"
 #include "scene/ray_packet.hpp"
 #include "scene/scene_impl.hpp"
-#include "vantage/raycore/box_projector.hpp"
+#include "vantage/raycore/advanced/scene.hpp"
+#include "vantage/raycore/detail/box_projector.hpp"
 #include "vantage/raycore/error.hpp"
-#include "vantage/raycore/scene.hpp"
 
 namespace vantage {
-namespace detail {
+namespace raycore::detail {
 namespace {
 
 /// A search for one triangle that passes a test.
@@ -71,28 +71,29 @@ void check_query(const Eigen::Vector3d& p_world, double distance_m) {
 }
 
 }  // namespace
-}  // namespace detail
+}  // namespace raycore::detail
 
 bool Scene::closer_than(double distance_m, const Eigen::Vector3d& p_world, ObjectId object) const {
-  detail::check_query(p_world, distance_m);
+  raycore::detail::check_query(p_world, distance_m);
   const double squared = distance_m * distance_m;
-  return detail::any_near(*impl_, p_world, distance_m, object,
-                          [&](const detail::TriangleCorners& triangle) {
-                            return detail::squared_distance(p_world, triangle) < squared;
-                          });
+  return raycore::detail::any_near(
+      *impl_, p_world, distance_m, object, [&](const raycore::detail::TriangleCorners& triangle) {
+        return raycore::detail::squared_distance(p_world, triangle) < squared;
+      });
 }
 
 bool Scene::closer_than(double distance_m, const Box& box, const Pose& T_world_box,
                         ObjectId object) const {
   const Eigen::Vector3d half = 0.5 * box.size(), centre = T_world_box * box.centre();
-  detail::check_query(centre, distance_m);
+  raycore::detail::check_query(centre, distance_m);
   const Eigen::Matrix3d R_box_world = T_world_box.rotation().transpose();
-  return detail::any_near(*impl_, centre, half.norm() + distance_m, object,
-                          [&](detail::TriangleCorners triangle) {
-                            for (Eigen::Vector3d& corner : triangle)
-                              corner = R_box_world * (corner - centre);
-                            return detail::closer_to_box_than(distance_m, half, triangle);
-                          });
+  return raycore::detail::any_near(*impl_, centre, half.norm() + distance_m, object,
+                                   [&](raycore::detail::TriangleCorners triangle) {
+                                     for (Eigen::Vector3d& corner : triangle)
+                                       corner = R_box_world * (corner - centre);
+                                     return raycore::detail::closer_to_box_than(distance_m, half,
+                                                                                triangle);
+                                   });
 }
 
 namespace {

@@ -2,10 +2,10 @@
 
 #include <fmt/format.h>
 
+#include "vantage/raycore/detail/instruction_set.hpp"
 #include "vantage/raycore/error.hpp"
-#include "vantage/raycore/instruction_set.hpp"
 
-namespace vantage::detail {
+namespace vantage::raycore::detail {
 
 EmbreeDevice::EmbreeDevice()
     : device_(rtcNewDevice(fmt::format("max_isa={}", name_of(instruction_set())).c_str())) {
@@ -33,4 +33,4 @@ void commit_scene(const EmbreeDevice& device, RTCScene scene) {
   device.check();
 }
 
-}  // namespace vantage::detail
+}  // namespace vantage::raycore::detail

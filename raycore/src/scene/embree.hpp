@@ -12,7 +12,7 @@
 #include <embree4/rtcore.h>
 #endif
 
-namespace vantage::detail {
+namespace vantage::raycore::detail {
 
 inline constexpr unsigned kAllMasks = 0xFFFFFFFFu;
 
@@ -93,4 +93,4 @@ using OwnedScene = std::unique_ptr<std::remove_pointer_t<RTCScene>, ReleaseScene
 /// Commits a scene as all of ours are: robust, because otherwise rays slip through shared edges.
 void commit_scene(const EmbreeDevice& device, RTCScene scene);
 
-}  // namespace vantage::detail
+}  // namespace vantage::raycore::detail

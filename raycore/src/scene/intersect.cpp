@@ -10,9 +10,9 @@
 #include "scene/pixel_tile.hpp"
 #include "scene/ray_packet.hpp"
 #include "scene/scene_impl.hpp"
+#include "vantage/raycore/advanced/scene.hpp"
+#include "vantage/raycore/detail/multiversion.hpp"
 #include "vantage/raycore/error.hpp"
-#include "vantage/raycore/multiversion.hpp"
-#include "vantage/raycore/scene.hpp"
 
 namespace vantage {
 
@@ -22,7 +22,7 @@ void Hits::resize(std::size_t size) {
   normal.resize(size);
 }
 
-namespace detail {
+namespace raycore::detail {
 namespace {
 
 template <std::size_t kOriginStride>
@@ -91,27 +91,28 @@ void closest_hits_batch(const SceneImpl& scene, const PointLanes& origins, Point
 }
 
 }  // namespace
-}  // namespace detail
+}  // namespace raycore::detail
 
 void Scene::closest_hits(PointsView origins, PointsView directions, Hits& hits,
                          RayOrder order) const {
-  detail::check_batch_size("the array of origins", origins.size, directions.size);
-  detail::closest_hits_batch(*impl_, detail::PointLanes(origins), directions,
-                             std::numeric_limits<float>::infinity(), order == RayOrder::coherent,
-                             hits);
+  raycore::detail::check_batch_size("the array of origins", origins.size, directions.size);
+  raycore::detail::closest_hits_batch(*impl_, raycore::detail::PointLanes(origins), directions,
+                                      std::numeric_limits<float>::infinity(),
+                                      order == RayOrder::coherent, hits);
 }
 
 void Scene::closest_hits(const Eigen::Vector3f& origin, PointsView directions, Hits& hits,
                          RayOrder order) const {
-  detail::closest_hits_batch(*impl_, detail::PointLanes(origin, directions.size), directions,
-                             std::numeric_limits<float>::infinity(), order == RayOrder::coherent,
-                             hits);
+  raycore::detail::closest_hits_batch(*impl_, raycore::detail::PointLanes(origin, directions.size),
+                                      directions, std::numeric_limits<float>::infinity(),
+                                      order == RayOrder::coherent, hits);
 }
 
 std::optional<Hit> Scene::closest_hit(const Ray& ray) const {
   const Eigen::Vector3f &o = ray.origin, &d = ray.direction;
-  if (!detail::valid_ray(o.x(), o.y(), o.z(), d.x(), d.y(), d.z())) {
-    detail::refuse_first_ray(detail::PointLanes(o, 1), {&d.x(), &d.y(), &d.z(), 1});
+  if (!raycore::detail::valid_ray(o.x(), o.y(), o.z(), d.x(), d.y(), d.z())) {
+    raycore::detail::refuse_first_ray(raycore::detail::PointLanes(o, 1),
+                                      {&d.x(), &d.y(), &d.z(), 1});
   }
   if (!(ray.t_near >= 0 && ray.t_near <= ray.t_far)) {
     throw bad_input("ray 0", fmt::format("t goes from {} to {}; expected 0 <= t_near <= t_far",
@@ -122,10 +123,10 @@ std::optional<Hit> Scene::closest_hit(const Ray& ray) const {
   query.ray.dir_x = d.x(), query.ray.dir_y = d.y(), query.ray.dir_z = d.z();
   query.ray.tnear = ray.t_near;
   query.ray.tfar = ray.t_far;
-  query.ray.mask = detail::kAllMasks;
+  query.ray.mask = raycore::detail::kAllMasks;
   query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-  detail::QueryContext(false).intersect1(impl_->top, &query);
+  raycore::detail::QueryContext(false).intersect1(impl_->top, &query);
   if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
 
   const bool instance = query.hit.instID[0] != RTC_INVALID_GEOMETRY_ID;
@@ -140,16 +141,17 @@ DepthImage Scene::render_depth(const PinholeCamera& camera) const {
   const Intrinsics& k = camera.intrinsics();
   DepthImage depth(k.width, k.height);
   const Eigen::Vector3f origin = camera.centre().cast<float>();
-  if (!detail::in_reach(origin.x(), origin.y(), origin.z())) {
+  if (!raycore::detail::in_reach(origin.x(), origin.y(), origin.z())) {
     throw bad_input("camera",
                     fmt::format("its centre is [{}, {}, {}]; expected coordinates within "
                                 "1e9 m of the origin",
                                 camera.centre().x(), camera.centre().y(), camera.centre().z()));
   }
   const float near_m = float(camera.range().near_m), far_m = float(camera.range().far_m);
-  const std::size_t bands = detail::band_count(k.height);
+  const std::size_t bands = raycore::detail::band_count(k.height);
   tbb::parallel_for(std::size_t(0), bands, [&](std::size_t band) {
-    const std::vector<detail::Pixel> pixels = detail::pixels_of_band(k, int(band));
+    const std::vector<raycore::detail::Pixel> pixels =
+        raycore::detail::pixels_of_band(k, int(band));
     Points directions(pixels.size());
     for (std::size_t i = 0; i < pixels.size(); ++i) {
       directions.set(i, camera.pixel_ray(pixels[i].u, pixels[i].v).direction.cast<float>());
@@ -157,8 +159,8 @@ DepthImage Scene::render_depth(const PinholeCamera& camera) const {
     // t is the depth: that is how pixel rays are scaled. Rays start at the camera, not at the near
     // depth: what stands too near hides what is behind it.
     Hits hits;
-    detail::closest_hits_batch(*impl_, detail::PointLanes(origin, pixels.size()), directions, far_m,
-                               true, hits);
+    raycore::detail::closest_hits_batch(*impl_, raycore::detail::PointLanes(origin, pixels.size()),
+                                        directions, far_m, true, hits);
     for (std::size_t i = 0; i < pixels.size(); ++i) {
       if (hits.hit(i) && hits.t[i] >= near_m) depth.set(pixels[i].u, pixels[i].v, hits.t[i]);
     }
@@ -166,7 +168,7 @@ DepthImage Scene::render_depth(const PinholeCamera& camera) const {
   return depth;
 }
 
-Scene::Scene(std::unique_ptr<detail::SceneImpl> impl) : impl_(std::move(impl)) {}
+Scene::Scene(std::unique_ptr<raycore::detail::SceneImpl> impl) : impl_(std::move(impl)) {}
 Scene::~Scene() = default;
 std::size_t Scene::object_count() const noexcept {
   return impl_->normal_to_world.size();
@@ -181,7 +183,7 @@ std::array<Eigen::Vector3d, 3> Scene::corners(ObjectId object, std::size_t trian
   return impl_->triangles[object].corners(std::uint32_t(triangle));
 }
 
-namespace detail {
+namespace raycore::detail {
 namespace {
 
 constexpr int kSide = PixelTile::kSide;
@@ -250,16 +252,17 @@ constexpr int kSide = PixelTile::kSide;
 constexpr Multiversion<trace_tiles_body> trace_tiles;
 
 }  // namespace
-}  // namespace detail
+}  // namespace raycore::detail
 
 void Scene::first_hits(const PinholeCamera& camera, std::span<const PixelTile> tiles,
                        std::span<TileHits> hits) const {
-  detail::check_batch_size("the array of hits", hits.size(), tiles.size());
-  detail::check_tiles(camera);
-  const detail::PacketJob job{impl_->top, impl_->use_coherent(true), float(camera.range().far_m)};
-  detail::trace_tiles(job, camera.intrinsics(),
-                      detail::PixelRotation(camera.T_world_cam().rotation()),
-                      camera.centre().cast<float>(), tiles.data(), tiles.size(), hits.data());
+  raycore::detail::check_batch_size("the array of hits", hits.size(), tiles.size());
+  raycore::detail::check_tiles(camera);
+  const raycore::detail::PacketJob job{impl_->top, impl_->use_coherent(true),
+                                       float(camera.range().far_m)};
+  raycore::detail::trace_tiles(
+      job, camera.intrinsics(), raycore::detail::PixelRotation(camera.T_world_cam().rotation()),
+      camera.centre().cast<float>(), tiles.data(), tiles.size(), hits.data());
 }
 
 }  // namespace vantage

@@ -7,11 +7,11 @@
 #include "scene/batch.hpp"
 #include "scene/ray_packet.hpp"
 #include "scene/scene_impl.hpp"
-#include "vantage/raycore/multiversion.hpp"
-#include "vantage/raycore/scene.hpp"
+#include "vantage/raycore/advanced/scene.hpp"
+#include "vantage/raycore/detail/multiversion.hpp"
 
 namespace vantage {
-namespace detail {
+namespace raycore::detail {
 namespace {
 
 struct SegmentLanes {
@@ -89,36 +89,38 @@ void occluded_batch(const SceneImpl& scene, PointsView from, const PointLanes& t
 }
 
 }  // namespace
-}  // namespace detail
+}  // namespace raycore::detail
 
 bool Scene::occluded(const Eigen::Vector3f& from, const Eigen::Vector3f& to) const {
-  if (!detail::valid_segment(from.x(), from.y(), from.z(), to.x(), to.y(), to.z())) {
-    detail::refuse_first_segment({&from.x(), &from.y(), &from.z(), 1}, detail::PointLanes(to, 1));
+  if (!raycore::detail::valid_segment(from.x(), from.y(), from.z(), to.x(), to.y(), to.z())) {
+    raycore::detail::refuse_first_segment({&from.x(), &from.y(), &from.z(), 1},
+                                          raycore::detail::PointLanes(to, 1));
   }
   const Eigen::Vector3f direction = to - from;
   RTCRay ray{};
   ray.org_x = from.x(), ray.org_y = from.y(), ray.org_z = from.z();
   ray.dir_x = direction.x(), ray.dir_y = direction.y(), ray.dir_z = direction.z();
-  ray.tfar = detail::kSegmentEnd;
-  ray.mask = detail::kAllMasks;
-  detail::QueryContext(false).occluded1(impl_->top, &ray);
+  ray.tfar = raycore::detail::kSegmentEnd;
+  ray.mask = raycore::detail::kAllMasks;
+  raycore::detail::QueryContext(false).occluded1(impl_->top, &ray);
   return ray.tfar < 0;
 }
 
 void Scene::occluded(PointsView from, PointsView to, std::span<std::uint8_t> result,
                      RayOrder order) const {
-  detail::check_batch_size("the array of end points", to.size, from.size);
-  detail::check_batch_size("the result", result.size(), from.size);
-  detail::occluded_batch(*impl_, from, detail::PointLanes(to), result, order);
+  raycore::detail::check_batch_size("the array of end points", to.size, from.size);
+  raycore::detail::check_batch_size("the result", result.size(), from.size);
+  raycore::detail::occluded_batch(*impl_, from, raycore::detail::PointLanes(to), result, order);
 }
 
 void Scene::occluded(PointsView from, const Eigen::Vector3f& to, std::span<std::uint8_t> result,
                      RayOrder order) const {
-  detail::check_batch_size("the result", result.size(), from.size);
-  detail::occluded_batch(*impl_, from, detail::PointLanes(to, from.size), result, order);
+  raycore::detail::check_batch_size("the result", result.size(), from.size);
+  raycore::detail::occluded_batch(*impl_, from, raycore::detail::PointLanes(to, from.size), result,
+                                  order);
 }
 
-namespace detail {
+namespace raycore::detail {
 namespace {
 
 struct PacketQuery {
@@ -174,15 +176,16 @@ constexpr Multiversion<trace_packets_body> trace_packets;
 }
 
 }  // namespace
-}  // namespace detail
+}  // namespace raycore::detail
 
 void Scene::occluded(PointsView from, const Eigen::Vector3f& to,
                      std::span<const std::uint32_t> packets, std::span<const std::uint16_t> wanted,
                      std::span<std::uint16_t> hidden) const {
-  detail::check_packets(from.size, packets, {wanted.size(), hidden.size()});
-  const detail::PacketQuery query{impl_->top, from,           to.x(),        to.y(),
-                                  to.z(),     packets.data(), wanted.data(), packets.size()};
-  if (!detail::trace_packets(query, hidden.data())) detail::refuse_first_wanted(query);
+  raycore::detail::check_packets(from.size, packets, {wanted.size(), hidden.size()});
+  const raycore::detail::PacketQuery query{
+      impl_->top, from, to.x(), to.y(), to.z(), packets.data(), wanted.data(), packets.size()};
+  if (!raycore::detail::trace_packets(query, hidden.data()))
+    raycore::detail::refuse_first_wanted(query);
 }
 
 }  // namespace vantage

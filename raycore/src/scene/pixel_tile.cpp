@@ -6,7 +6,7 @@
 
 #include "vantage/raycore/error.hpp"
 
-namespace vantage::detail {
+namespace vantage::raycore::detail {
 namespace {
 
 constexpr int kFarthestPixel = PixelTile::kSide * (1 << 16);
@@ -46,4 +46,4 @@ void check_tiles(const PinholeCamera& camera) {
                               camera.intrinsics().fx, camera.intrinsics().fy));
 }
 
-}  // namespace vantage::detail
+}  // namespace vantage::raycore::detail

@@ -6,10 +6,10 @@
 
 #include "geometry/pixel_direction.hpp"
 #include "scene/ray_packet.hpp"
+#include "vantage/raycore/advanced/scene.hpp"
 #include "vantage/raycore/camera.hpp"
-#include "vantage/raycore/scene.hpp"
 
-namespace vantage::detail {
+namespace vantage::raycore::detail {
 
 struct Pixel {
   int u;
@@ -108,4 +108,4 @@ template <int kAxis>
 /// @throws Error bad_input unless Embree may see the rays of every tile of the camera.
 void check_tiles(const PinholeCamera& camera);
 
-}  // namespace vantage::detail
+}  // namespace vantage::raycore::detail

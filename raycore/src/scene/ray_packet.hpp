@@ -8,10 +8,10 @@
 #include <limits>
 
 #include "scene/embree.hpp"
+#include "vantage/raycore/advanced/scene.hpp"
 #include "vantage/raycore/points.hpp"
-#include "vantage/raycore/scene.hpp"
 
-namespace vantage::detail {
+namespace vantage::raycore::detail {
 
 // Embree's own limit is 1.8e18; below this one nothing overflows on the way to it either.
 inline constexpr float kFarthestCoordinate = 1e9f;
@@ -185,4 +185,4 @@ struct HitLanes {
   copy(out.normal_z, packet.hit.Ng_z);
 }
 
-}  // namespace vantage::detail
+}  // namespace vantage::raycore::detail

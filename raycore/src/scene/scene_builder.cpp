@@ -1,4 +1,4 @@
-#include "vantage/raycore/scene_builder.hpp"
+#include "vantage/raycore/advanced/scene_builder.hpp"
 
 #include <fmt/format.h>
 
@@ -12,7 +12,7 @@
 #include "vantage/raycore/error.hpp"
 
 namespace vantage {
-namespace detail {
+namespace raycore::detail {
 
 SceneImpl::SceneImpl() : top(rtcNewScene(device)) {
   device.check();
@@ -52,13 +52,14 @@ ObjectTriangles attach_mesh(const SceneImpl& impl, RTCScene scene, const Triangl
 }
 
 }  // namespace
-}  // namespace detail
+}  // namespace raycore::detail
 
 struct SceneBuilder::Impl {
-  std::unique_ptr<detail::SceneImpl> scene = std::make_unique<detail::SceneImpl>();
+  std::unique_ptr<raycore::detail::SceneImpl> scene =
+      std::make_unique<raycore::detail::SceneImpl>();
   struct SharedMesh {
     RTCScene scene;
-    detail::ObjectTriangles triangles;
+    raycore::detail::ObjectTriangles triangles;
   };
   std::map<std::shared_ptr<const TriangleMesh>, SharedMesh> shared;
 
@@ -74,8 +75,8 @@ struct SceneBuilder::Impl {
     if (is_new) {
       found.scene = rtcNewScene(scene->device);
       scene->shared.push_back(found.scene);
-      found.triangles = detail::attach_mesh(*scene, found.scene, *mesh, 0);
-      detail::commit_scene(scene->device, found.scene);
+      found.triangles = raycore::detail::attach_mesh(*scene, found.scene, *mesh, 0);
+      raycore::detail::commit_scene(scene->device, found.scene);
     }
     return found;
   }
@@ -86,7 +87,8 @@ SceneBuilder::~SceneBuilder() = default;
 
 ObjectId SceneBuilder::add_mesh(const TriangleMesh& mesh) {
   const ObjectId id = impl_->next_object(Eigen::Matrix3f::Identity());
-  impl_->scene->triangles[id] = detail::attach_mesh(*impl_->scene, impl_->scene->top, mesh, id);
+  impl_->scene->triangles[id] =
+      raycore::detail::attach_mesh(*impl_->scene, impl_->scene->top, mesh, id);
   impl_->scene->triangle_count += mesh.triangles().size();
   return id;
 }
@@ -99,16 +101,17 @@ ObjectId SceneBuilder::add_instance(std::shared_ptr<const TriangleMesh> mesh,
                                     const Pose& T_world_mesh) {
   if (mesh == nullptr) throw bad_input("scene", "an instance without a mesh (null pointer)");
   const Eigen::Vector3d& place = T_world_mesh.translation();
-  if (!detail::is_coordinate(place)) {
-    throw bad_input("scene", fmt::format("an instance lies at {} m; expected coordinates below "
-                                         "{:g} m (is the unit right?)",
-                                         detail::to_text(place), detail::kMaxCoordinate));
+  if (!raycore::detail::is_coordinate(place)) {
+    throw bad_input("scene",
+                    fmt::format("an instance lies at {} m; expected coordinates below "
+                                "{:g} m (is the unit right?)",
+                                raycore::detail::to_text(place), raycore::detail::kMaxCoordinate));
   }
   const Eigen::Matrix3f rotation = T_world_mesh.rotation().cast<float>();
   const ObjectId id = impl_->next_object(rotation);
   if (mesh->empty()) return id;
 
-  detail::SceneImpl& scene = *impl_->scene;
+  raycore::detail::SceneImpl& scene = *impl_->scene;
   Eigen::Matrix<float, 3, 4> transform;
   transform << rotation, place.cast<float>();
   RTCGeometry geometry = rtcNewGeometry(scene.device, RTC_GEOMETRY_TYPE_INSTANCE);
@@ -119,14 +122,14 @@ ObjectId SceneBuilder::add_instance(std::shared_ptr<const TriangleMesh> mesh,
   rtcSetGeometryInstancedScene(geometry, shared.scene);
   rtcSetGeometryTimeStepCount(geometry, 1);
   rtcSetGeometryTransform(geometry, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, transform.data());
-  detail::attach(scene, scene.top, geometry, id);
+  raycore::detail::attach(scene, scene.top, geometry, id);
   scene.triangle_count += mesh->triangles().size();
   scene.has_instances = true;
   return id;
 }
 
 std::shared_ptr<const Scene> SceneBuilder::build() {
-  detail::commit_scene(impl_->scene->device, impl_->scene->top);
+  raycore::detail::commit_scene(impl_->scene->device, impl_->scene->top);
   std::shared_ptr<const Scene> scene(new Scene(std::move(impl_->scene)));
   impl_ = std::make_unique<Impl>();
   return scene;

@@ -9,7 +9,7 @@
 #include "vantage/raycore/pose.hpp"
 #include "vantage/raycore/triangle_mesh.hpp"
 
-namespace vantage::detail {
+namespace vantage::raycore::detail {
 
 /// An object's triangles where Embree keeps them: they live as long as the scene.
 struct ObjectTriangles {
@@ -50,4 +50,4 @@ struct SceneImpl {
   bool use_coherent(bool wanted) const { return wanted && !has_instances; }
 };
 
-}  // namespace vantage::detail
+}  // namespace vantage::raycore::detail

@@ -4,18 +4,18 @@
 #include <cmath>
 #include <limits>
 
-namespace vantage::detail {
+namespace vantage::raycore::detail {
 namespace {
 
 /// A bucket is at most as wide as the narrowest cell, within reason.
 int bucket_count(const std::vector<float>& lines) {
-  constexpr double kMostBuckets = 1 << 14;
+  constexpr double kMaxBuckets = 1 << 14;
   double narrowest = std::numeric_limits<double>::infinity();
   for (std::size_t i = 1; i < lines.size(); ++i) {
     narrowest = std::min(narrowest, double(lines[i]) - double(lines[i - 1]));
   }
   const double range = double(lines.back()) - double(lines.front());
-  return int(std::clamp(std::ceil(range / narrowest), 1.0, kMostBuckets));
+  return int(std::clamp(std::ceil(range / narrowest), 1.0, kMaxBuckets));
 }
 
 }  // namespace
@@ -51,7 +51,7 @@ AxisLookup::AxisLookup(const std::vector<float>& lines)
   steps = *std::max_element(cells_begun.begin(), cells_begun.end());
 }
 
-LatticeProbe::LatticeProbe(const DepthLattice& lattice)
+LatticeProbe::LatticeProbe(const VisibilityMesh& lattice)
     : columns(lattice.columns),
       rows(lattice.rows),
       width(int(lattice.width())),
@@ -83,4 +83,4 @@ ProbeView::ProbeView(const LatticeProbe& lattice_probe, const Eigen::Vector3d& r
   borders[3] = float(double(rows.last) * o.z() - o.y());
 }
 
-}  // namespace vantage::detail
+}  // namespace vantage::raycore::detail

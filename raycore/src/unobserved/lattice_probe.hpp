@@ -3,10 +3,10 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "vantage/raycore/advanced/visibility_mesh.hpp"
 #include "vantage/raycore/points.hpp"
-#include "vantage/raycore/visibility_mesh.hpp"
 
-namespace vantage::detail {
+namespace vantage::raycore::detail {
 
 /// Finds the cell of a coordinate among increasing lines in a few steps that are the same for every
 /// lane: a table has the cell in which each bucket of equal width begins, and from there it goes on
@@ -32,7 +32,7 @@ inline constexpr float kHighest = 1000;
 /// gets to see stays in its reach.
 inline constexpr float kNearestPart = 1e-6f;
 
-/// `DepthLattice::sees` for sixteen points at once, in float: it says whether it is worth asking
+/// `VisibilityMesh::sees` for sixteen points at once, in float: it says whether it is worth asking
 /// Embree where a ray leaves a lattice's volume.
 ///
 /// It works where the lattice's scene does, in the lattice's own projective space: a point is at
@@ -46,7 +46,7 @@ struct LatticeProbe {
   std::vector<float> nearness;        ///< of the vertices; NaN where it is unknown
   Eigen::Matrix3d pixels_from_world;  ///< gives (u z, v z, z) of a point relative to the camera
 
-  explicit LatticeProbe(const DepthLattice& lattice);
+  explicit LatticeProbe(const VisibilityMesh& lattice);
 };
 
 /// A probe for points relative to one ray origin.
@@ -204,4 +204,4 @@ struct LanePixels {
   }
 }
 
-}  // namespace vantage::detail
+}  // namespace vantage::raycore::detail

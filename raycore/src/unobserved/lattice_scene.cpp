@@ -5,7 +5,7 @@
 #include <cstring>
 #include <utility>
 
-namespace vantage::detail {
+namespace vantage::raycore::detail {
 namespace {
 
 constexpr float kWallTop = kHighest / kNearestPart;
@@ -13,7 +13,7 @@ constexpr float kWallTop = kHighest / kNearestPart;
 /// Cells of a lattice, each 1 or 0.
 class CellMask {
  public:
-  explicit CellMask(const DepthLattice& lattice)
+  explicit CellMask(const VisibilityMesh& lattice)
       : width_(int(lattice.width()) - 1),
         height_(int(lattice.height()) - 1),
         present_(std::size_t(width_) * std::size_t(height_)) {
@@ -112,7 +112,7 @@ void attach(const EmbreeDevice& device, RTCScene scene, RTCGeometryType type, RT
 
 }  // namespace
 
-std::vector<Eigen::Vector3f> lattice_vertices(const DepthLattice& lattice,
+std::vector<Eigen::Vector3f> lattice_vertices(const VisibilityMesh& lattice,
                                               const LatticeProbe& probe) {
   std::vector<Eigen::Vector3f> vertices(lattice.depth.size());
   for (std::size_t j = 0, at = 0; j < lattice.height(); ++j) {
@@ -124,7 +124,7 @@ std::vector<Eigen::Vector3f> lattice_vertices(const DepthLattice& lattice,
   return vertices;
 }
 
-std::vector<RTCGrid> present_rectangles(const DepthLattice& lattice) {
+std::vector<RTCGrid> present_rectangles(const VisibilityMesh& lattice) {
   CellMask cells(lattice);
   std::vector<RTCGrid> rectangles;
   for (int j = 0; j < cells.height(); ++j) {
@@ -135,7 +135,7 @@ std::vector<RTCGrid> present_rectangles(const DepthLattice& lattice) {
   return rectangles;
 }
 
-std::vector<Triangle> hole_walls(const DepthLattice& lattice,
+std::vector<Triangle> hole_walls(const VisibilityMesh& lattice,
                                  std::vector<Eigen::Vector3f>& vertices) {
   const CellMask cells(lattice);
   Walls walls(vertices);
@@ -154,7 +154,7 @@ std::vector<Triangle> hole_walls(const DepthLattice& lattice,
   return std::move(walls.triangles);
 }
 
-LatticeScene::LatticeScene(const EmbreeDevice& device, const DepthLattice& lattice,
+LatticeScene::LatticeScene(const EmbreeDevice& device, const VisibilityMesh& lattice,
                            const LatticeProbe& probe)
     : scene_(rtcNewScene(device)) {
   std::vector<Eigen::Vector3f> vertices = lattice_vertices(lattice, probe);
@@ -173,4 +173,4 @@ LatticeScene::LatticeScene(const EmbreeDevice& device, const DepthLattice& latti
   commit_scene(device, scene_.get());
 }
 
-}  // namespace vantage::detail
+}  // namespace vantage::raycore::detail

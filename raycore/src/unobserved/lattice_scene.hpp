@@ -6,23 +6,23 @@
 
 #include "scene/embree.hpp"
 #include "unobserved/lattice_probe.hpp"
+#include "vantage/raycore/advanced/visibility_mesh.hpp"
 #include "vantage/raycore/triangle_mesh.hpp"
-#include "vantage/raycore/visibility_mesh.hpp"
 
-namespace vantage::detail {
+namespace vantage::raycore::detail {
 
 /// A lattice's vertices in its probe's projective space. What is unknown has nearness 0: no cell
 /// uses it.
-std::vector<Eigen::Vector3f> lattice_vertices(const DepthLattice& lattice,
+std::vector<Eigen::Vector3f> lattice_vertices(const VisibilityMesh& lattice,
                                               const LatticeProbe& probe);
 
 /// The present cells as rectangles of a vertex array with the lattice's width.
-std::vector<RTCGrid> present_rectangles(const DepthLattice& lattice);
+std::vector<RTCGrid> present_rectangles(const VisibilityMesh& lattice);
 
 /// The walls at the borders of holes, from the cells' edges upwards to where the camera's centre
 /// would be, which is infinitely high: they end at a millionth of the smallest depth. All look
 /// outwards, as the cells do. Their upper vertices are added to `vertices`.
-std::vector<Triangle> hole_walls(const DepthLattice& lattice,
+std::vector<Triangle> hole_walls(const VisibilityMesh& lattice,
                                  std::vector<Eigen::Vector3f>& vertices);
 
 /// The bits of a ray's mask that meet a lattice's cells, and the borders of its holes.
@@ -37,7 +37,8 @@ inline constexpr unsigned kHolesMask = 2;
 /// triangles.
 class LatticeScene {
  public:
-  LatticeScene(const EmbreeDevice& device, const DepthLattice& lattice, const LatticeProbe& probe);
+  LatticeScene(const EmbreeDevice& device, const VisibilityMesh& lattice,
+               const LatticeProbe& probe);
   RTCScene get() const { return scene_.get(); }
   bool has_walls() const { return has_walls_; }
 
@@ -46,4 +47,4 @@ class LatticeScene {
   bool has_walls_;
 };
 
-}  // namespace vantage::detail
+}  // namespace vantage::raycore::detail

@@ -6,7 +6,7 @@
 // has gone on from there. Its image has gone on by σ · (du - u dz, dv - v dz, -w dz), with
 // σ = a / (z + a dz) and u, v, w, z those of p. So a query's direction is the one in brackets, and
 // a = σ z / (1 - σ dz): without cancellation where a ray comes nearer to the camera, and to
-// kMostDeeper times a float's precision where it goes away from it.
+// kMaxDeeper times a float's precision where it goes away from it.
 #pragma once
 
 #include <cmath>
@@ -17,7 +17,7 @@
 #include "unobserved/lattice_scene.hpp"
 #include "unobserved/seen_walk.hpp"
 
-namespace vantage::detail {
+namespace vantage::raycore::detail {
 
 /// Turns the hits' normals into those of the planes in the world, of any length, and n_c into
 /// their distance from the lattice's camera times that length.
@@ -71,7 +71,7 @@ namespace vantage::detail {
 }
 
 /// A ray that goes deeper than this many times the depth it starts at is asked for in parts.
-inline constexpr float kMostDeeper = 32;
+inline constexpr float kMaxDeeper = 32;
 
 /// Where rays get out of a volume. Lanes that have not been found have any t and facing.
 struct Exits {
@@ -97,21 +97,21 @@ struct LaneParts {
                                        const float* t_stop, LaneParts& part, RTCRayHit16& packet) {
   const float u0 = volume.probe.origin[0], v0 = volume.probe.origin[1];
   const float z0 = volume.probe.origin[2], height = volume.probe.probe->height;
-  const float least_z = kNearestPart * volume.probe.probe->nearest;
+  const float min_z = kNearestPart * volume.probe.probe->nearest;
   const unsigned mask = volume.from_apex ? kCellsMask : kAllMasks;
   RTCRay16& ray = packet.ray;
 #pragma GCC unroll 1
   for (std::size_t i = 0; i < kPacketWidth; ++i) {
     const float t = part.start[i], dz = d.z[i], its_z = z0 + t * dz;
-    const float z = its_z > least_z ? its_z : least_z, inverse_z = 1 / z;
+    const float z = its_z > min_z ? its_z : min_z, inverse_z = 1 / z;
     const float u = (u0 + t * d.u[i]) * inverse_z, v = (v0 + t * d.v[i]) * inverse_z;
     const float w = height * inverse_z;
     // A ray that has left the box may have gone infinitely far.
     const bool asked = part.asked[i] != 0;
     set_ray(ray, i, asked, u, v, w, d.u[i] - u * dz, d.v[i] - v * dz, -w * dz);
-    const float left = t_stop[i] - t, all = left > 0 ? left : 0, some = (kMostDeeper - 1) * z / dz;
+    const float left = t_stop[i] - t, all = left > 0 ? left : 0, some = (kMaxDeeper - 1) * z / dz;
     const float length = (dz > 0) & (some < all) ? some : all;
-    const float end_z = z + length * dz, last_z = end_z > least_z ? end_z : least_z;
+    const float end_z = z + length * dz, last_z = end_z > min_z ? end_z : min_z;
     part.depth[i] = z;
     part.length[i] = length;
     ray.tnear[i] = 0;
@@ -222,4 +222,4 @@ struct LaneParts {
   add_ends(volume, rays.lattice, t_stop, to_the_end, exits);
 }
 
-}  // namespace vantage::detail
+}  // namespace vantage::raycore::detail

@@ -12,9 +12,9 @@
 #include "scene/pixel_tile.hpp"
 #include "unobserved/seen_exits.hpp"
 #include "unobserved/seen_walkers.hpp"
-#include "vantage/raycore/multiversion.hpp"
+#include "vantage/raycore/detail/multiversion.hpp"
 
-namespace vantage::detail {
+namespace vantage::raycore::detail {
 namespace {
 
 /// Asks once more for lanes that the probe has inside and Embree has not: with rays turned by a
@@ -138,4 +138,4 @@ void walk_tiles(const WalkJob& job, const PinholeCamera& camera, std::span<const
             tiles.size(), hits);
 }
 
-}  // namespace vantage::detail
+}  // namespace vantage::raycore::detail

@@ -6,11 +6,11 @@
 
 #include "scene/embree.hpp"
 #include "unobserved/lattice_probe.hpp"
+#include "vantage/raycore/advanced/unobserved_space.hpp"
 #include "vantage/raycore/box.hpp"
 #include "vantage/raycore/camera.hpp"
-#include "vantage/raycore/unobserved_space.hpp"
 
-namespace vantage::detail {
+namespace vantage::raycore::detail {
 
 /// A lattice's volume as a walk from one origin needs it.
 struct WalkVolume {
@@ -41,4 +41,4 @@ struct WalkJob {
 void walk_tiles(const WalkJob& job, const PinholeCamera& camera, std::span<const PixelTile> tiles,
                 UnseenHits* hits);
 
-}  // namespace vantage::detail
+}  // namespace vantage::raycore::detail

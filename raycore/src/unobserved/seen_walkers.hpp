@@ -10,7 +10,7 @@
 #include "unobserved/seen_exits.hpp"
 #include "unobserved/seen_walk.hpp"
 
-namespace vantage::detail {
+namespace vantage::raycore::detail {
 
 /// Sixteen rays on their way. Of a mask's lanes -1 is true and 0 false.
 struct Walkers {
@@ -126,4 +126,4 @@ struct Walkers {
   move_on(UnseenHits::kNoSource, exits, w);
 }
 
-}  // namespace vantage::detail
+}  // namespace vantage::raycore::detail

@@ -2,7 +2,7 @@
 
 #include <cstring>
 
-namespace vantage::detail {
+namespace vantage::raycore::detail {
 
 ShellScene::ShellScene(const EmbreeDevice& device, const TriangleMesh& shell)
     : scene_(rtcNewScene(device)) {
@@ -24,4 +24,4 @@ ShellScene::ShellScene(const EmbreeDevice& device, const TriangleMesh& shell)
   commit_scene(device, scene_.get());
 }
 
-}  // namespace vantage::detail
+}  // namespace vantage::raycore::detail

@@ -3,7 +3,7 @@
 #include "scene/embree.hpp"
 #include "vantage/raycore/triangle_mesh.hpp"
 
-namespace vantage::detail {
+namespace vantage::raycore::detail {
 
 /// A closed surface in the world as an Embree scene: its triangles look outwards, so that a ray
 /// that meets the back of one first is inside, and all others are outside.
@@ -16,4 +16,4 @@ class ShellScene {
   OwnedScene scene_;
 };
 
-}  // namespace vantage::detail
+}  // namespace vantage::raycore::detail

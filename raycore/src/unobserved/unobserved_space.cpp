@@ -1,4 +1,4 @@
-#include "vantage/raycore/unobserved_space.hpp"
+#include "vantage/raycore/advanced/unobserved_space.hpp"
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
@@ -27,12 +27,13 @@ constexpr double kThinnest = 1e-5;
 
 /// A lattice's volume: where it ends, and whether a point is in it.
 struct SeenVolume {
-  detail::LatticeProbe probe;
-  detail::LatticeScene scene;
+  raycore::detail::LatticeProbe probe;
+  raycore::detail::LatticeScene scene;
   Eigen::Vector3d apex;
   double reach;  ///< the largest coordinate
 
-  SeenVolume(const detail::EmbreeDevice& device, const DepthLattice& lattice, double its_reach)
+  SeenVolume(const raycore::detail::EmbreeDevice& device, const VisibilityMesh& lattice,
+             double its_reach)
       : probe(lattice),
         scene(device, lattice, probe),
         apex(lattice.camera.centre()),
@@ -44,7 +45,7 @@ double reach_of(const Box& box) {
 }
 
 /// The largest coordinate of the surface and of the camera; infinite if one is no number.
-double reach_of(const DepthLattice& lattice) {
+double reach_of(const VisibilityMesh& lattice) {
   const PinholeCamera& camera = lattice.camera;
   double reach = camera.centre().cwiseAbs().maxCoeff();
   if (camera.centre().hasNaN()) reach = std::numeric_limits<double>::infinity();
@@ -63,7 +64,7 @@ double reach_of(const DepthLattice& lattice) {
 }
 
 void check_reach(double reach, const std::string& where) {
-  if (reach <= double(detail::kFarthestCoordinate)) return;
+  if (reach <= double(raycore::detail::kFarthestCoordinate)) return;
   throw bad_input(where, fmt::format("it reaches {:g} m from the origin; expected 1e9 m at most "
                                      "(is the unit right?)",
                                      reach));
@@ -71,9 +72,9 @@ void check_reach(double reach, const std::string& where) {
 
 /// Cameras that look where the viewer looks first: they see what its rays will meet, so that rays
 /// go as far in their volumes as in any, and the others need only be probed.
-void sort_for(const PinholeCamera& viewer, std::vector<detail::WalkVolume>& volumes) {
+void sort_for(const PinholeCamera& viewer, std::vector<raycore::detail::WalkVolume>& volumes) {
   const Eigen::Vector3f axis = viewer.T_world_cam().rotation().col(2).cast<float>();
-  const auto likeness = [&](const detail::WalkVolume& volume) {
+  const auto likeness = [&](const raycore::detail::WalkVolume& volume) {
     const float* optical_axis = volume.probe.m + 6;
     return axis.dot(Eigen::Map<const Eigen::Vector3f>(optical_axis));
   };
@@ -87,19 +88,19 @@ std::string name_of(std::size_t lattice) {
 
 }  // namespace
 
-struct SeenSpace::Impl {
+struct UnobservedSpace::Impl {
   Box box;
-  detail::EmbreeDevice device;
+  raycore::detail::EmbreeDevice device;
   std::vector<std::unique_ptr<const SeenVolume>> volumes;  // in the lattices' order
-  std::optional<detail::ShellScene> shell;
+  std::optional<raycore::detail::ShellScene> shell;
 
   explicit Impl(const Box& seen_box) : box(seen_box) {}
 
-  detail::WalkJob job(const PinholeCamera& camera) const {
+  raycore::detail::WalkJob job(const PinholeCamera& camera) const {
     const Eigen::Vector3f origin = camera.centre().cast<float>();
     const Eigen::Vector3d from = origin.cast<double>();
     const double reach = std::max(reach_of(box), from.cwiseAbs().maxCoeff());
-    detail::WalkJob job;
+    raycore::detail::WalkJob job;
     for (int axis = 0; axis < 3; ++axis) {
       job.box_min[axis] = float(box.min()[axis] - from[axis]);
       job.box_max[axis] = float(box.max()[axis] - from[axis]);
@@ -114,7 +115,7 @@ struct SeenSpace::Impl {
       // Rays from its apex lie in a border's plane or pass it by; in float they might cross it.
       const bool from_apex = apex.cwiseAbs().maxCoeff() <= 0.1 * step;
       job.volumes.push_back(
-          {detail::ProbeView(volume.probe, -apex),
+          {raycore::detail::ProbeView(volume.probe, -apex),
            volume.scene.get(),
            {float(apex.x()), float(apex.y()), float(apex.z())},
            float(step),
@@ -127,8 +128,8 @@ struct SeenSpace::Impl {
   }
 };
 
-SeenSpace::SeenSpace(std::span<const DepthLattice> lattices, const Box& box,
-                     const TriangleMesh* shell)
+UnobservedSpace::UnobservedSpace(std::span<const VisibilityMesh> lattices, const Box& box,
+                                 const TriangleMesh* shell)
     : impl_(std::make_unique<Impl>(box)) {
   check_reach(reach_of(box), "box");
   if (shell != nullptr) impl_->shell.emplace(impl_->device, *shell);
@@ -144,21 +145,21 @@ SeenSpace::SeenSpace(std::span<const DepthLattice> lattices, const Box& box,
   });
 }
 
-SeenSpace::~SeenSpace() = default;
+UnobservedSpace::~UnobservedSpace() = default;
 
-const Box& SeenSpace::box() const noexcept {
+const Box& UnobservedSpace::box() const noexcept {
   return impl_->box;
 }
 
-std::size_t SeenSpace::lattice_count() const noexcept {
+std::size_t UnobservedSpace::lattice_count() const noexcept {
   return impl_->volumes.size();
 }
 
-void SeenSpace::first_unseen(const PinholeCamera& camera, std::span<const PixelTile> tiles,
-                             std::span<UnseenHits> hits) const {
-  detail::check_batch_size("the array of hits", hits.size(), tiles.size());
-  detail::check_tiles(camera);
-  detail::walk_tiles(impl_->job(camera), camera, tiles, hits.data());
+void UnobservedSpace::first_unseen(const PinholeCamera& camera, std::span<const PixelTile> tiles,
+                                   std::span<UnseenHits> hits) const {
+  raycore::detail::check_batch_size("the array of hits", hits.size(), tiles.size());
+  raycore::detail::check_tiles(camera);
+  raycore::detail::walk_tiles(impl_->job(camera), camera, tiles, hits.data());
 }
 
 }  // namespace vantage

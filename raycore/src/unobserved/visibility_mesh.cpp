@@ -1,4 +1,4 @@
-#include "vantage/raycore/visibility_mesh.hpp"
+#include "vantage/raycore/advanced/visibility_mesh.hpp"
 
 #include <fmt/format.h>
 
@@ -12,13 +12,13 @@
 namespace vantage {
 namespace {
 
-constexpr std::size_t kMostLines = 32767;  // so that sixteen bits hold them, as Embree's grids want
+constexpr std::size_t kMaxLines = 32767;  // so that sixteen bits hold them, as Embree's grids want
 constexpr float kFarthestPixel = 1e6f;
 
 void check_lines(const std::vector<float>& lines, const char* what, std::string_view where) {
-  if (lines.size() < 2 || lines.size() > kMostLines) {
+  if (lines.size() < 2 || lines.size() > kMaxLines) {
     throw bad_input(std::string(where),
-                    fmt::format("it has {} {}; expected 2 to {}", lines.size(), what, kMostLines));
+                    fmt::format("it has {} {}; expected 2 to {}", lines.size(), what, kMaxLines));
   }
   for (std::size_t i = 0; i < lines.size(); ++i) {
     if (!(std::abs(lines[i]) <= kFarthestPixel)) {
@@ -48,7 +48,7 @@ std::optional<Place> find(const std::vector<float>& lines, double x) {
 
 }  // namespace
 
-void DepthLattice::check(std::string_view where) const {
+void VisibilityMesh::check(std::string_view where) const {
   check_lines(columns, "columns", where);
   check_lines(rows, "rows", where);
   if (depth.size() != width() * height()) {
@@ -65,14 +65,14 @@ void DepthLattice::check(std::string_view where) const {
   }
 }
 
-bool DepthLattice::has_cell(std::size_t i, std::size_t j) const {
+bool VisibilityMesh::has_cell(std::size_t i, std::size_t j) const {
   const float* upper = &depth[j * width() + i];
   const float* lower = upper + width();
   return !std::isnan(upper[0]) && !std::isnan(upper[1]) && !std::isnan(lower[0]) &&
          !std::isnan(lower[1]);
 }
 
-bool DepthLattice::sees(const Eigen::Vector3d& p_world) const {
+bool VisibilityMesh::sees(const Eigen::Vector3d& p_world) const {
   const std::optional<ImagePoint> pixel = camera.project(p_world);
   if (!pixel) return false;
   const std::optional<Place> column = find(columns, pixel->u), row = find(rows, pixel->v);

@@ -11,7 +11,7 @@
 
 #include "vantage/raycore/error.hpp"
 
-namespace vantage::detail {
+namespace vantage::reconstruction::detail {
 
 /// A value as the user wrote it, cut off where it gets long.
 inline std::string excerpt(const nlohmann::json& value) {
@@ -90,4 +90,4 @@ class Entry {
   std::string where_;
 };
 
-}  // namespace vantage::detail
+}  // namespace vantage::reconstruction::detail

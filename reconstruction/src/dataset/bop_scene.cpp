@@ -13,18 +13,18 @@
 #include "dataset/bop_entry.hpp"
 #include "dataset/image_header.hpp"
 #include "dataset/json_file.hpp"
+#include "vantage/raycore/detail/file.hpp"
 #include "vantage/raycore/error.hpp"
-#include "vantage/raycore/file.hpp"
 #include "vantage/raycore/image_io.hpp"
 
 namespace vantage {
 namespace {
 
 namespace fs = std::filesystem;
-using detail::Entry;
-using detail::excerpt;
-using detail::ImageSize;
 using nlohmann::json;
+using reconstruction::detail::Entry;
+using reconstruction::detail::excerpt;
+using reconstruction::detail::ImageSize;
 
 using Entries = std::map<int, Entry>;
 
@@ -36,8 +36,8 @@ Entries entries_by_id(const fs::path& file, const json& root) {
   }
   Entries entries;
   for (const auto& [key, value] : root.items()) {
-    const int id =
-        detail::id_of(key, "image", fmt::format("{}: {}", file.string(), json(key).dump()));
+    const int id = reconstruction::detail::id_of(
+        key, "image", fmt::format("{}: {}", file.string(), json(key).dump()));
     if (!entries.try_emplace(id, file, key, value).second) {
       throw bad_input(fmt::format("{}: \"{}\"", file.string(), key),
                       fmt::format("image {} is there twice; remove one of them", id));
@@ -158,7 +158,7 @@ class Loader {
                                                  entry.where()));
     }
     const double depth_scale_mm = entry.positive("depth_scale");
-    const CountImage counts = read_png_counts(file);
+    const RawDepthImage counts = read_png_counts(file);
     scene_.files.push_back(file);
     vote.add({counts.width, counts.height}, file.string());
     return std::make_shared<const DepthImage>(
@@ -169,7 +169,7 @@ class Loader {
     for (const char* ending : {".png", ".jpg"}) {
       const fs::path file = scene_.folder / "rgb" / (stem(id) + ending);
       if (!fs::exists(file)) continue;
-      vote.add(detail::check_color_header(read_file(file), file), file.string());
+      vote.add(reconstruction::detail::check_color_header(read_file(file), file), file.string());
       scene_.files.push_back(file);
       return file;
     }
@@ -204,7 +204,7 @@ BopScene load_bop_scene(const fs::path& folder, const DepthRange& range,
     throw bad_input(file.string(), "missing; a BOP scene folder has one, e.g. DATASET/test/000001");
   }
   BopScene scene{folder, {}, {file}};
-  const json root = detail::parse_json_file(file);
+  const json root = reconstruction::detail::parse_json_file(file);
   Entries entries = entries_by_id(file, root);
   select(entries, only_ids, file);
 

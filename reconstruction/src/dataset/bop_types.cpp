@@ -11,7 +11,7 @@
 #include "vantage/raycore/error.hpp"
 #include "vantage/raycore/mesh_io.hpp"
 
-namespace vantage::detail {
+namespace vantage::reconstruction::detail {
 namespace {
 
 namespace fs = std::filesystem;
@@ -144,4 +144,4 @@ std::vector<ObjectType> read_bop_types(const fs::path& folder, std::vector<fs::p
   return ModelFolder(folder, files).read();
 }
 
-}  // namespace vantage::detail
+}  // namespace vantage::reconstruction::detail

@@ -5,7 +5,7 @@
 
 #include "vantage/reconstruction/object_type.hpp"
 
-namespace vantage::detail {
+namespace vantage::reconstruction::detail {
 
 /// Reads a folder of BOP models: every one of models_info.json, from obj_%06d.ply, in the order of
 /// their ids. Millimetres become metres. A type is called obj_000001 and carries a feature {"pose",
@@ -16,4 +16,4 @@ namespace vantage::detail {
 std::vector<ObjectType> read_bop_types(const std::filesystem::path& folder,
                                        std::vector<std::filesystem::path>& files);
 
-}  // namespace vantage::detail
+}  // namespace vantage::reconstruction::detail

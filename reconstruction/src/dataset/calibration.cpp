@@ -8,21 +8,21 @@
 #include <string>
 #include <vector>
 
+#include "vantage/raycore/detail/file.hpp"
 #include "vantage/raycore/error.hpp"
-#include "vantage/raycore/file.hpp"
 
 namespace vantage {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kMostBytes = 1 << 20;  // OpenCV's tools also list all the corners seen
+constexpr std::size_t kMaxBytes = 1 << 20;  // OpenCV's tools also list all the corners seen
 
 /// A calibration file as OpenCV has read it, and the words for what is wrong with it.
 class CalibrationFile {
  public:
   explicit CalibrationFile(const fs::path& path) : path_(path.string()) {
-    const std::vector<std::uint8_t> bytes = read_file(path, kMostBytes);
+    const std::vector<std::uint8_t> bytes = read_file(path, kMaxBytes);
     const std::string text(bytes.begin(), bytes.end());
     check_kind(text);
     try {
@@ -96,12 +96,12 @@ class CalibrationFile {
   }
   /// OpenCV takes the memory for a matrix before it looks whether its numbers are there.
   void check_claim(const std::string& key, const char* expected) const {
-    constexpr int kMost = 100;
+    constexpr int kMax = 100;
     const cv::FileNode claim = node(key);
     const bool is_matrix = claim.isMap() && claim["rows"].isInt() && claim["cols"].isInt();
     if (!is_matrix) throw bad(key, fmt::format("it is no OpenCV matrix; expected {}", expected));
     const int rows = int(claim["rows"]), columns = int(claim["cols"]);
-    if (rows < 1 || rows > kMost || columns < 1 || columns > kMost) {
+    if (rows < 1 || rows > kMax || columns < 1 || columns > kMax) {
       throw bad(key, fmt::format("it has {} × {} numbers; expected {}", rows, columns, expected));
     }
   }

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "dataset/image_header.hpp"
+#include "vantage/raycore/detail/file.hpp"
 #include "vantage/raycore/error.hpp"
-#include "vantage/raycore/file.hpp"
 
 namespace vantage {
 namespace {
@@ -23,7 +23,8 @@ cv::Mat decode(const std::vector<std::uint8_t>& bytes) {
 
 ColorImage read_color(const std::filesystem::path& path) {
   const std::vector<std::uint8_t> bytes = read_file(path);
-  const detail::ImageSize size = detail::check_color_header(bytes, path);
+  const reconstruction::detail::ImageSize size =
+      reconstruction::detail::check_color_header(bytes, path);
   const cv::Mat bgr = decode(bytes);
   if (bgr.type() != CV_8UC3 || bgr.cols != size.width || bgr.rows != size.height) {
     throw bad_input(path.string(), "corrupt: the image cannot be decoded; copy or record it again");

@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "dataset/image_header.hpp"
+#include "vantage/raycore/detail/file.hpp"
 #include "vantage/raycore/error.hpp"
-#include "vantage/raycore/file.hpp"
 #include "vantage/reconstruction/bop_scene.hpp"
 
 namespace vantage {
@@ -40,7 +40,8 @@ BopScene load_photographs(const fs::path& folder, const Intrinsics& intrinsics,
   range.check("depth range");
   BopScene scene{folder, {}, {}};
   for (const fs::path& file : pictures_in(folder)) {
-    const detail::ImageSize size = detail::check_color_header(read_file(file), file);
+    const reconstruction::detail::ImageSize size =
+        reconstruction::detail::check_color_header(read_file(file), file);
     if (size.width != intrinsics.width || size.height != intrinsics.height) {
       throw bad_input(file.string(),
                       fmt::format("{} x {} pixels, but the camera's calibration is for {} x {}; "

@@ -8,7 +8,7 @@
 
 #include "vantage/raycore/error.hpp"
 
-namespace vantage::detail {
+namespace vantage::reconstruction::detail {
 namespace {
 
 using Bytes = std::span<const std::uint8_t>;
@@ -121,4 +121,4 @@ ImageSize check_color_header(Bytes bytes, const std::filesystem::path& path) {
   return {int(header.width), int(header.height)};
 }
 
-}  // namespace vantage::detail
+}  // namespace vantage::reconstruction::detail

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <span>
 
-namespace vantage::detail {
+namespace vantage::reconstruction::detail {
 
 struct ImageSize {
   int width = 0;
@@ -19,4 +19,4 @@ struct ImageSize {
 ImageSize check_color_header(std::span<const std::uint8_t> bytes,
                              const std::filesystem::path& path);
 
-}  // namespace vantage::detail
+}  // namespace vantage::reconstruction::detail

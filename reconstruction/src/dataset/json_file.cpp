@@ -9,15 +9,15 @@
 #include <string_view>
 #include <vector>
 
+#include "vantage/raycore/detail/file.hpp"
 #include "vantage/raycore/error.hpp"
-#include "vantage/raycore/file.hpp"
 
-namespace vantage::detail {
+namespace vantage::reconstruction::detail {
 namespace {
 
 using nlohmann::json;
 
-constexpr std::size_t kMaxBytes = std::size_t(64) << 20;
+constexpr std::size_t kMaxJsonBytes = std::size_t(64) << 20;
 constexpr int kMaxDepth = 64;
 
 /// A text, and where it stands.
@@ -98,7 +98,7 @@ json parse(const Source& source) {
 }  // namespace
 
 json parse_json_file(const std::filesystem::path& path) {
-  const std::vector<std::uint8_t> bytes = read_file(path, kMaxBytes);
+  const std::vector<std::uint8_t> bytes = read_file(path, kMaxJsonBytes);
   const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   if (text.find_first_not_of(" \t\r\n") == std::string_view::npos) {
     throw bad_input(path.string(), "the file is empty; expected JSON");
@@ -110,4 +110,4 @@ json parse_json_line(const std::filesystem::path& path, int line, std::string_vi
   return parse({path, text, line});
 }
 
-}  // namespace vantage::detail
+}  // namespace vantage::reconstruction::detail

@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <string_view>
 
-namespace vantage::detail {
+namespace vantage::reconstruction::detail {
 
 /// Parses a JSON file that nobody vouches for.
 /// @throws Error bad_input with file:line:column for a syntax error and for nesting deeper than 64;
@@ -14,4 +14,4 @@ nlohmann::json parse_json_file(const std::filesystem::path& path);
 /// The same for one line of a file of JSON lines; `line` counts from 1.
 nlohmann::json parse_json_line(const std::filesystem::path& path, int line, std::string_view text);
 
-}  // namespace vantage::detail
+}  // namespace vantage::reconstruction::detail

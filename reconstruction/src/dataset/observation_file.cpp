@@ -13,12 +13,12 @@
 #include "documents/schema_check.hpp"
 #include "documents/schemas.hpp"
 #include "documents/value_readers.hpp"
-#include "vantage/raycore/file.hpp"
+#include "vantage/raycore/detail/file.hpp"
 
 namespace vantage {
 namespace {
 
-constexpr std::size_t kMaxBytes = std::size_t(64) << 20;
+constexpr std::size_t kMaxObservationBytes = std::size_t(64) << 20;
 
 /// NaN for what the schema lets stand for no number.
 double number_or_nan(const Value& value) {
@@ -103,7 +103,7 @@ Observation read_observation(const Value& line) {
 }  // namespace
 
 std::map<int, std::vector<Observation>> read_observations(const std::filesystem::path& file) {
-  const std::vector<std::uint8_t> bytes = read_file(file, kMaxBytes);
+  const std::vector<std::uint8_t> bytes = read_file(file, kMaxObservationBytes);
   std::string_view rest(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   std::map<int, std::vector<Observation>> observations;
   for (int number = 1; !rest.empty(); ++number) {
@@ -112,7 +112,7 @@ std::map<int, std::vector<Observation>> read_observations(const std::filesystem:
     rest.remove_prefix(end == std::string_view::npos ? rest.size() : end + 1);
     if (text.find_first_not_of(" \t\r") == std::string_view::npos) continue;
     const Document document{
-        file.string(), detail::parse_json_line(file, number, text), {{"", number}}};
+        file.string(), reconstruction::detail::parse_json_line(file, number, text), {{"", number}}};
     check_schema(document, observation_schema());
     const Value line(document);
     observations[line["image"].as<int>()].push_back(read_observation(line));

@@ -12,7 +12,7 @@ namespace vantage {
 namespace {
 
 auto known_dictionary(const std::string& name, const std::string& where) {
-  const auto found = detail::aruco_dictionary(name);
+  const auto found = reconstruction::detail::aruco_dictionary(name);
   if (found) return *found;
   throw bad_input(where, fmt::format("there is no marker dictionary '{}'; expected one of {}", name,
                                      fmt::join(marker_dictionaries(), ", ")));
@@ -28,7 +28,7 @@ std::array<Eigen::Vector3d, 4> Marker::corners() const {
 }
 
 std::vector<std::string> marker_dictionaries() {
-  return detail::aruco_dictionary_names();
+  return reconstruction::detail::aruco_dictionary_names();
 }
 
 std::string marker_family(std::string_view dictionary) {
@@ -38,17 +38,17 @@ std::string marker_family(std::string_view dictionary) {
 }
 
 int marker_count(const std::string& dictionary, const std::string& where) {
-  return detail::marker_count(known_dictionary(dictionary, where));
+  return reconstruction::detail::marker_count(known_dictionary(dictionary, where));
 }
 
 MarkerCells marker_cells(const std::string& dictionary, int id, const std::string& where) {
   const auto found = known_dictionary(dictionary, where);
-  const int count = detail::marker_count(found);
+  const int count = reconstruction::detail::marker_count(found);
   if (id < 0 || id >= count) {
     throw bad_input(where, fmt::format("marker dictionary {} has no id {}; expected 0 to {}",
                                        dictionary, id, count - 1));
   }
-  const cv::Mat drawn = detail::draw_cells(found, id);
+  const cv::Mat drawn = reconstruction::detail::draw_cells(found, id);
   MarkerCells cells{drawn.rows, {}};
   for (int row = 0; row < drawn.rows; ++row) {
     for (int column = 0; column < drawn.cols; ++column) {

@@ -1,6 +1,6 @@
 #include "features/opencv_aruco.hpp"
 
-namespace vantage::detail {
+namespace vantage::reconstruction::detail {
 namespace {
 
 struct Named {
@@ -47,4 +47,4 @@ std::optional<cv::aruco::Dictionary> aruco_dictionary(std::string_view name) {
   return std::nullopt;
 }
 
-}  // namespace vantage::detail
+}  // namespace vantage::reconstruction::detail

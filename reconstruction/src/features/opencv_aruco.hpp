@@ -16,7 +16,7 @@
 #include <opencv2/aruco.hpp>
 #endif
 
-namespace vantage::detail {
+namespace vantage::reconstruction::detail {
 
 /// OpenCV's names without the prefix `DICT_`: those that both versions have.
 std::vector<std::string> aruco_dictionary_names();
@@ -69,4 +69,4 @@ inline void detect_in_grey(const cv::Mat& grey, const cv::aruco::Dictionary& dic
 #endif
 }
 
-}  // namespace vantage::detail
+}  // namespace vantage::reconstruction::detail

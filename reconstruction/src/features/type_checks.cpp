@@ -6,7 +6,7 @@
 
 #include "vantage/raycore/error.hpp"
 
-namespace vantage::detail {
+namespace vantage::reconstruction::detail {
 namespace {
 
 void check_points(const std::vector<Eigen::Vector3d>& points_m, const std::string& place) {
@@ -109,4 +109,4 @@ void check_type(const ObjectType& type) {
   for (std::size_t i = 0; i < type.features.size(); ++i) check_feature(type, i);
 }
 
-}  // namespace vantage::detail
+}  // namespace vantage::reconstruction::detail

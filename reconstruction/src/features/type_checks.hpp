@@ -2,7 +2,7 @@
 
 #include "vantage/reconstruction/object_type.hpp"
 
-namespace vantage::detail {
+namespace vantage::reconstruction::detail {
 
 /// Checks what a type says of itself alone.
 /// @throws Error bad_input as MemoryKnowledgeBase does.
@@ -11,4 +11,4 @@ void check_type(const ObjectType& type);
 /// Where a type is described: its place, or its name if it has none.
 std::string place_of(const ObjectType& type);
 
-}  // namespace vantage::detail
+}  // namespace vantage::reconstruction::detail

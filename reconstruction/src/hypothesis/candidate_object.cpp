@@ -10,7 +10,7 @@
 #include "pose/rigid_motion.hpp"
 #include "vantage/reconstruction/reconstruct.hpp"
 
-namespace vantage::detail {
+namespace vantage::reconstruction::detail {
 namespace {
 
 /// The covariance of T * S from that of T: S moves the origin.
@@ -22,32 +22,32 @@ Matrix6d moved_origin(const Matrix6d& covariance, const Eigen::Vector3d& arm) {
 }  // namespace
 
 ReconstructedObject object_of(const Candidate& candidate) {
-  const Explanation& best = candidate.best();
+  const PoseHypothesis& best = candidate.best();
   const CanonicalPose canonical = canonical_pose(best);
   ReconstructedObject object{best.type(), canonical.T_world_object};
   object.covariance =
-      moved_origin(candidate.ways.front().covariance,
+      moved_origin(candidate.voted_hypotheses.front().covariance,
                    canonical.T_world_object.translation() - best.T_world_object.translation());
   object.probability = candidate.there * candidate.shares.front();
   double squared_px = 0;
   std::size_t points = 0;
-  for (std::size_t i = 0; i < best.readings.size(); ++i) {
-    const Evidence& evidence = best.each[i];
+  for (std::size_t i = 0; i < best.correspondences.size(); ++i) {
+    const LinearSystem& system = best.each[i];
     object.support.push_back(
-        {best.readings[i]->sighting->id, canonical.features[i], evidence.rms_px()});
-    squared_px += evidence.squared_px;
-    points += best.readings[i]->points_m.size();
+        {best.correspondences[i]->measurement->id, canonical.features[i], system.rms_px()});
+    squared_px += system.squared_px;
+    points += best.correspondences[i]->points_m.size();
   }
   object.rms_px = points > 0 ? std::sqrt(squared_px / double(points)) : 0;
-  for (std::size_t w = 1; w < candidate.ways.size(); ++w) {
-    const Explanation& way = candidate.ways[w].explanation;
-    object.alternatives.push_back(
-        {way.type(), canonical_pose(way).T_world_object, candidate.there * candidate.shares[w]});
+  for (std::size_t w = 1; w < candidate.voted_hypotheses.size(); ++w) {
+    const PoseHypothesis& voted = candidate.voted_hypotheses[w].hypothesis;
+    object.alternatives.push_back({voted.type(), canonical_pose(voted).T_world_object,
+                                   candidate.there * candidate.shares[w]});
   }
   return object;
 }
 
-}  // namespace vantage::detail
+}  // namespace vantage::reconstruction::detail
 
 namespace vantage {
 

@@ -8,7 +8,7 @@
 
 #include "vantage/raycore/error.hpp"
 
-namespace vantage::detail {
+namespace vantage::reconstruction::detail {
 namespace {
 
 constexpr double kSamePx = 0.5;    // two detectors' corners of one marker are nearer
@@ -22,7 +22,7 @@ void check(const ReconstructOptions& options) {
   };
   positive("inlier_px", options.inlier_px);
   positive("merge_m", options.merge_m);
-  positive("least_evidence", options.least_evidence);
+  positive("min_evidence", options.min_evidence);
 }
 
 void check(const CameraView& view) {
@@ -78,8 +78,8 @@ class ViewReader {
     lens_ = std::make_shared<const WideLens>(view.lens);
   }
 
-  /// Why `sighting` cannot be used; empty, and `sighting` filled in, if it can.
-  std::string read(std::size_t index, Sighting& sighting) {
+  /// Why `measurement` cannot be used; empty, and `measurement` filled in, if it can.
+  std::string read(std::size_t index, Measurement& measurement) {
     const Observation& observation = view_.observations[index];
     if (!view_.T_world_cam) return "its camera is not located";
     const std::string fault = fault_of(observation);
@@ -90,10 +90,10 @@ class ViewReader {
     }
     for (const TypeFeature& feature : features) {
       if (of_its_kind(observation, feature.type->features[feature.index])) {
-        sighting.features.push_back(&feature);
+        measurement.features.push_back(&feature);
       }
     }
-    if (sighting.features.empty()) {
+    if (measurement.features.empty()) {
       return fmt::format("{} is known, but is no feature of this kind or with as many points",
                          name_of(observation.key));
     }
@@ -103,10 +103,10 @@ class ViewReader {
       }
     }
     by_key_[observation.key].push_back(index);
-    sighting.view = &view_;
-    sighting.observation = &observation;
-    sighting.T_cam_world = T_cam_world_;
-    sighting.lens = lens_;
+    measurement.view = &view_;
+    measurement.observation = &observation;
+    measurement.T_cam_world = T_cam_world_;
+    measurement.lens = lens_;
     return {};
   }
 
@@ -132,24 +132,25 @@ std::string name_of(const FeatureKey& key) {
   return (key.type == "aruco" ? "marker" : key.type) + " " + key.value;
 }
 
-Gathered gather(std::span<const CameraView> views, const KnowledgeBase& knowledge,
-                const ReconstructOptions& options) {
+CollectedMeasurements collect_measurements(std::span<const CameraView> views,
+                                           const KnowledgeBase& knowledge,
+                                           const ReconstructOptions& options) {
   check(options);
   for (const CameraView& view : views) check(view);
-  Gathered gathered;
+  CollectedMeasurements collected;
   for (std::size_t v = 0; v < views.size(); ++v) {
     ViewReader reader(views[v], knowledge);
     for (std::size_t o = 0; o < views[v].observations.size(); ++o) {
-      Sighting sighting{{v, o}};
-      std::string reason = reader.read(o, sighting);
+      Measurement measurement{{v, o}};
+      std::string reason = reader.read(o, measurement);
       if (reason.empty()) {
-        gathered.sightings.push_back(std::move(sighting));
+        collected.measurements.push_back(std::move(measurement));
       } else {
-        gathered.unexplained.push_back({{v, o}, std::move(reason)});
+        collected.unexplained.push_back({{v, o}, std::move(reason)});
       }
     }
   }
-  return gathered;
+  return collected;
 }
 
 void sort_result(const KnowledgeBase& knowledge, Reconstruction& result) {
@@ -169,4 +170,4 @@ void sort_result(const KnowledgeBase& knowledge, Reconstruction& result) {
   std::stable_sort(result.unexplained.begin(), result.unexplained.end(), by_id);
 }
 
-}  // namespace vantage::detail
+}  // namespace vantage::reconstruction::detail

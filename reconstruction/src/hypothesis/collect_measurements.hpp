@@ -8,11 +8,11 @@
 #include "vantage/reconstruction/reconstruct.hpp"
 
 // Private: what the methods of reconstruction have in common before and after the work itself.
-namespace vantage::detail {
+namespace vantage::reconstruction::detail {
 
 /// An observation that can be used: sound, from a camera whose pose is known, and with features of
 /// the knowledge base that it may be.
-struct Sighting {
+struct Measurement {
   ObservationId id = {};
   const CameraView* view = nullptr;
   const Observation* observation = nullptr;
@@ -27,9 +27,9 @@ struct Sighting {
   const SeenLabel* label() const { return std::get_if<SeenLabel>(&observation->data); }
 };
 
-struct Gathered {
-  std::vector<Sighting> sightings;       ///< ascending by id
-  std::vector<Unexplained> unexplained;  ///< the rest, each with its reason; ascending by id
+struct CollectedMeasurements {
+  std::vector<Measurement> measurements;  ///< ascending by id
+  std::vector<Unexplained> unexplained;   ///< the rest, each with its reason; ascending by id
 };
 
 /// Sorts out what cannot be used: faults, views without pose, unknown keys, features of another
@@ -37,8 +37,9 @@ struct Gathered {
 /// three standard deviations). The result points into `views` and `knowledge`.
 /// @throws Error bad_input, "options" as the place, for bounds that are not positive and finite;
 /// "views" for a covariance that is not finite.
-Gathered gather(std::span<const CameraView> views, const KnowledgeBase& knowledge,
-                const ReconstructOptions& options);
+CollectedMeasurements collect_measurements(std::span<const CameraView> views,
+                                           const KnowledgeBase& knowledge,
+                                           const ReconstructOptions& options);
 
 /// The frame of a pose feature or of a marker, T_object_feature; null for the others.
 const Pose* frame_of(const ObjectFeature& feature);
@@ -49,4 +50,4 @@ std::string name_of(const FeatureKey& key);
 /// Brings objects, their support and the unexplained into the order that `Reconstruction` has.
 void sort_result(const KnowledgeBase& knowledge, Reconstruction& result);
 
-}  // namespace vantage::detail
+}  // namespace vantage::reconstruction::detail

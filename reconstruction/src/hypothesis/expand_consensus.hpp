@@ -6,54 +6,56 @@
 
 #include "hypothesis/linear_system.hpp"
 
-namespace vantage::detail {
+namespace vantage::reconstruction::detail {
 
 /// Points that an object has to explain: three fit several poses exactly.
-inline constexpr int kFewestPoints = 4;
+inline constexpr int kMinPoints = 4;
 
-/// Sightings that are no coincidence.
-inline constexpr std::size_t kFirm = 3;
+/// Measurements that are no coincidence.
+inline constexpr std::size_t kReliableMeasurements = 3;
 
 /// What counts as explained.
-struct Bounds {
+struct InlierThresholds {
   double inlier_px = 3;
 
   /// Hypotheses are weighed as if corners were no better than this: calibration, lens and the
   /// cameras' poses add to the corners' own noise.
-  double least_sigma_px() const { return inlier_px / 6; }
+  double min_sigma_px() const { return inlier_px / 6; }
 
-  /// The largest chi-square of a reading that is explained: for points that of `inlier_px` in the
-  /// root mean square (where the camera's pose has a covariance: the root of its square and that of
-  /// three standard deviations), for poses the 99.9 % quantile with six degrees of freedom.
-  double largest_chi_square(const Reading& reading) const;
+  /// The largest chi-square of a correspondence that is explained: for points that of `inlier_px`
+  /// in the root mean square (where the camera's pose has a covariance: the root of its square and
+  /// that of three standard deviations), for poses the 99.9 % quantile with six degrees of freedom.
+  double largest_chi_square(const Correspondence& correspondence) const;
 
-  /// Whether the reading is explained by a pose at which this is its evidence.
-  bool explains(const Reading& reading, const Evidence& evidence) const;
+  /// Whether the correspondence is explained by a pose at which this is its evidence.
+  bool explains(const Correspondence& correspondence, const LinearSystem& system) const;
 };
 
-/// One way to explain some sightings: they show an object of this type at this pose.
-struct Explanation {
+/// One way to explain some measurements: they show an object of this type at this pose.
+struct PoseHypothesis {
   Pose T_world_object;
-  std::vector<const Reading*> readings;  ///< of one type; ascending by sighting
-  std::vector<Evidence> each;            ///< of the readings
-  Evidence sum;
+  std::vector<const Correspondence*> correspondences;  ///< of one type; ascending by measurement
+  std::vector<LinearSystem> each;                      ///< of the correspondences
+  LinearSystem sum;
 
-  const TypePtr& type() const { return readings.front()->feature->type; }
+  const TypePtr& type() const { return correspondences.front()->feature->type; }
   /// Points that it explains, those with large residuals less: what hypotheses compete by.
-  double score(const Bounds& bounds) const;
-  /// Whether `reading` may come in: one object explains a sighting once, and each of its features
-  /// once in a view.
-  bool has_room_for(const Reading& reading) const;
+  double score(const InlierThresholds& thresholds) const;
+  /// Whether `correspondence` may come in: one object explains a measurement once, and each of its
+  /// features once in a view.
+  bool has_room_for(const Correspondence& correspondence) const;
 };
 
-/// Fits a pose to the readings. Nothing if one of them is then not explained.
-std::optional<Explanation> explain(std::vector<const Reading*> readings, const Pose& start,
-                                   const Bounds& bounds);
+/// Fits a pose to the correspondences. Nothing if one of them is then not explained.
+std::optional<PoseHypothesis> explain(std::vector<const Correspondence*> correspondences,
+                                      const Pose& start, const InlierThresholds& thresholds);
 
-/// Starts from the seed's pose and takes in, of `pool`, what fits, the likeliest first: as long as
-/// the pose is vague, one reading at a time; then all that are where they are expected.
-/// Nothing if the pose does not even explain the seed.
-std::optional<Explanation> grow(std::vector<const Reading*> seed, const Pose& start,
-                                std::span<const Reading* const> pool, const Bounds& bounds);
+/// Starts from the sample's pose and takes in, of `pool`, what fits, the likeliest first: as long
+/// as the pose is vague, one correspondence at a time; then all that are where they are expected.
+/// Nothing if the pose does not even explain the sample.
+std::optional<PoseHypothesis> expand_consensus(std::vector<const Correspondence*> seed,
+                                               const Pose& start,
+                                               std::span<const Correspondence* const> pool,
+                                               const InlierThresholds& thresholds);
 
-}  // namespace vantage::detail
+}  // namespace vantage::reconstruction::detail

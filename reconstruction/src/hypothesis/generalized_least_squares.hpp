@@ -2,11 +2,11 @@
 
 #include "hypothesis/expand_consensus.hpp"
 
-namespace vantage::detail {
+namespace vantage::reconstruction::detail {
 
-/// An explanation with its final pose, and how sure that is.
+/// An hypothesis with its final pose, and how sure that is.
 struct FinalFit {
-  Explanation explanation;  ///< its evidence with the observations' own standard deviations
+  PoseHypothesis hypothesis;  ///< its evidence with the observations' own standard deviations
   Matrix6d covariance = Matrix6d::Zero();
   double chi_square = 0;
   int degrees_of_freedom = 0;
@@ -20,6 +20,6 @@ struct FinalFit {
 /// thousand cases, calibration, print or shape are off: what they add to the noise is estimated,
 /// and the fit repeated with it (model_error.hpp). `chi_square` stays that of the noise alone.
 /// Turns that a continuous symmetry leaves open get large variances, as covariance_of has them.
-FinalFit fit_finally(Explanation explanation);
+FinalFit generalized_least_squares(PoseHypothesis hypothesis);
 
-}  // namespace vantage::detail
+}  // namespace vantage::reconstruction::detail

@@ -9,39 +9,44 @@
 #include <numeric>
 #include <set>
 
-#include "vantage/raycore/scene_builder.hpp"
+#include "vantage/raycore/advanced/scene_builder.hpp"
 
-namespace vantage::detail {
+namespace vantage::reconstruction::detail {
 namespace {
 
 constexpr double kMarkerChiSquare = 26.1;  // 99.9 %, eight coordinates
 
-/// The evidence of an object's fit with what its sightings may be off by, beside their noise.
-Matrix6d cautious_information(const Explanation& object, const Bounds& bounds) {
-  Evidence sum;
-  for (const Reading* reading : object.readings) {
-    sum.add(evidence_of(*reading, object.T_world_object, bounds.least_sigma_px()));
+/// The evidence of an object's fit with what its measurements may be off by, beside their noise.
+Matrix6d cautious_information(const PoseHypothesis& object, const InlierThresholds& thresholds) {
+  LinearSystem sum;
+  for (const Correspondence* correspondence : object.correspondences) {
+    sum.add(linear_system_of(*correspondence, object.T_world_object, thresholds.min_sigma_px()));
   }
   return sum.information;
 }
 
-bool view_has(const Explanation& object, std::size_t view, std::size_t feature) {
-  return std::any_of(object.readings.begin(), object.readings.end(), [&](const Reading* reading) {
-    return reading->sighting->id.view == view && reading->feature->index == feature;
-  });
+bool view_has(const PoseHypothesis& object, std::size_t view, std::size_t feature) {
+  return std::any_of(object.correspondences.begin(), object.correspondences.end(),
+                     [&](const Correspondence* correspondence) {
+                       return correspondence->measurement->id.view == view &&
+                              correspondence->feature->index == feature;
+                     });
 }
 
-/// Whether the sighting lies where the object has these corners, from whichever it is counted. Less
-/// is forgiven than for readings: a marker that stands before another one is not that one.
-bool lies_at(const Sighting& sighting, std::vector<Eigen::Vector3d> corners,
-             const Explanation& object, const Matrix6d& information, const Bounds& bounds) {
-  Reading reading{&sighting, 0, object.readings.front()->feature, {}, {}};
+/// Whether the measurement lies where the object has these corners, from whichever it is counted.
+/// Less is forgiven than for correspondences: a marker that stands before another one is not that
+/// one.
+bool lies_at(const Measurement& measurement, std::vector<Eigen::Vector3d> corners,
+             const PoseHypothesis& object, const Matrix6d& information,
+             const InlierThresholds& thresholds) {
+  Correspondence correspondence{&measurement, 0, object.correspondences.front()->feature, {}, {}};
   for (std::size_t shift = 0; shift < corners.size(); ++shift) {
-    reading.points_m = corners;
-    const Evidence e = evidence_of(reading, object.T_world_object, bounds.least_sigma_px());
+    correspondence.points_m = corners;
+    const LinearSystem e =
+        linear_system_of(correspondence, object.T_world_object, thresholds.min_sigma_px());
     if (e.in_front) {
       const Eigen::LLT<Matrix6d> both(Matrix6d(information + e.information));
-      const double distance = e.chi_square - e.slope.dot(both.solve(e.slope));
+      const double distance = e.chi_square - e.gradient.dot(both.solve(e.gradient));
       if (distance <= kMarkerChiSquare) return true;
     }
     std::rotate(corners.begin(), corners.begin() + 1, corners.end());
@@ -49,37 +54,42 @@ bool lies_at(const Sighting& sighting, std::vector<Eigen::Vector3d> corners,
   return false;
 }
 
-/// The marker of the object for which the sighting was taken; null: none.
-const ObjectFeature* really_is(const Sighting& sighting, const Explanation& object,
-                               const Matrix6d& information, const Bounds& bounds) {
-  const SeenPoints* seen = sighting.points();
+/// The marker of the object for which the measurement was taken; null: none.
+const ObjectFeature* really_is(const Measurement& measurement, const PoseHypothesis& object,
+                               const Matrix6d& information, const InlierThresholds& thresholds) {
+  const SeenPoints* seen = measurement.points();
   if (!seen || seen->pixels.size() != 4) return nullptr;
   const std::vector<ObjectFeature>& features = object.type()->features;
   for (std::size_t f = 0; f < features.size(); ++f) {
     if (!std::holds_alternative<Marker>(features[f].geometry)) continue;
-    if (view_has(object, sighting.id.view, f)) continue;
-    if (lies_at(sighting, features[f].points(), object, information, bounds)) return &features[f];
+    if (view_has(object, measurement.id.view, f)) continue;
+    if (lies_at(measurement, features[f].points(), object, information, thresholds))
+      return &features[f];
   }
   return nullptr;
 }
 
 }  // namespace
 
-void reject_misread(std::vector<Candidate>& candidates, const Bounds& bounds) {
+void reject_misidentified(std::vector<Candidate>& candidates, const InlierThresholds& thresholds) {
   std::vector<Matrix6d> information;
   for (const Candidate& candidate : candidates) {
-    information.push_back(cautious_information(candidate.best(), bounds));
+    information.push_back(cautious_information(candidate.best(), thresholds));
   }
   for (Candidate& doubtful : candidates) {
-    const auto& readings = doubtful.best().readings;
+    const auto& correspondences = doubtful.best().correspondences;
     for (std::size_t i = 0; i < candidates.size() && doubtful.rejected.empty(); ++i) {
-      const Explanation& object = candidates[i].best();
-      if (object.readings.size() < 2 || object.readings.size() <= readings.size()) continue;
+      const PoseHypothesis& object = candidates[i].best();
+      if (object.correspondences.size() < 2 ||
+          object.correspondences.size() <= correspondences.size())
+        continue;
       const ObjectFeature* marker = nullptr;
-      const bool all = std::all_of(readings.begin(), readings.end(), [&](const Reading* reading) {
-        marker = really_is(*reading->sighting, object, information[i], bounds);
-        return marker != nullptr;
-      });
+      const bool all = std::all_of(correspondences.begin(), correspondences.end(),
+                                   [&](const Correspondence* correspondence) {
+                                     marker = really_is(*correspondence->measurement, object,
+                                                        information[i], thresholds);
+                                     return marker != nullptr;
+                                   });
       if (!all) continue;
       doubtful.rejected = fmt::format("lies where a {} has {}: read wrongly", object.type()->name,
                                       name_of(marker->key));
@@ -90,13 +100,14 @@ void reject_misread(std::vector<Candidate>& candidates, const Bounds& bounds) {
 namespace {
 
 constexpr double kMissed = 0.2, kHidden = 0.15;
-constexpr double kLeastSidePx = 30;   // smaller markers may well not be found
-constexpr double kLeastFacing = 0.5;  // sine of the angle between the marker and the sight
-constexpr double kBorderPx = 10;      // white around it has to be in the image too
-constexpr double kAboveM = 0.002;     // rays start in front of the marker, not in it
+constexpr double kMinSidePx = 30;   // smaller markers may well not be found
+constexpr double kMinFacing = 0.5;  // sine of the angle between the marker and the sight
+constexpr double kBorderPx = 10;    // white around it has to be in the image too
+constexpr double kAboveM = 0.002;   // rays start in front of the marker, not in it
 
-bool is_weak(const Explanation& object) {
-  return object.readings.front()->sighting->id.view == object.readings.back()->sighting->id.view;
+bool is_weak(const PoseHypothesis& object) {
+  return object.correspondences.front()->measurement->id.view ==
+         object.correspondences.back()->measurement->id.view;
 }
 
 /// The reconstructed objects as they hide markers.
@@ -121,7 +132,7 @@ class Watcher {
     const Eigen::Vector3d& eye = view_.T_world_cam->translation();
     const Eigen::Vector3d normal = T_world_marker.rotation().col(2);
     const Eigen::Vector3d sight = (eye - T_world_marker.translation()).normalized();
-    if (!(normal.dot(sight) > kLeastFacing)) return false;
+    if (!(normal.dot(sight) > kMinFacing)) return false;
     const auto corners = marker.corners();
     std::array<Eigen::Vector2d, 4> pixels;
     for (std::size_t i = 0; i < 4; ++i) {
@@ -131,7 +142,7 @@ class Watcher {
       if (!inside(pixels[i])) return false;
     }
     for (std::size_t i = 0; i < 4; ++i) {
-      if ((pixels[(i + 1) % 4] - pixels[i]).norm() < kLeastSidePx) return false;
+      if ((pixels[(i + 1) % 4] - pixels[i]).norm() < kMinSidePx) return false;
     }
     return std::none_of(corners.begin(), corners.end(), [&](const Eigen::Vector3d& corner) {
       const Eigen::Vector3d start = T_world_object * corner + kAboveM * normal;
@@ -153,15 +164,15 @@ class Watcher {
 };
 
 /// The logarithm of the probability that markers go unseen where they do.
-double log_of_unseen(const Explanation& object, std::span<const CameraView> views,
+double log_of_unseen(const PoseHypothesis& object, std::span<const CameraView> views,
                      const Scene& scene) {
   double log_probability = 0;
   for (std::size_t v = 0; v < views.size(); ++v) {
     if (!views[v].T_world_cam || views[v].observations.empty()) continue;
     const Watcher watcher(views[v], scene);
     std::set<std::size_t> seen;
-    for (const Reading* reading : object.readings) {
-      if (reading->sighting->id.view == v) seen.insert(reading->feature->index);
+    for (const Correspondence* correspondence : object.correspondences) {
+      if (correspondence->measurement->id.view == v) seen.insert(correspondence->feature->index);
     }
     int unseen = 0;
     const auto& features = object.type()->features;
@@ -177,60 +188,62 @@ double log_of_unseen(const Explanation& object, std::span<const CameraView> view
 }
 
 /// The ways' logarithmic likelihoods become shares; ways far below the best one are dropped.
-void share_out(Candidate& candidate, std::vector<double> logs, double least_evidence) {
+void share_out(Candidate& candidate, std::vector<double> logs, double min_evidence) {
   std::vector<std::size_t> order(logs.size());
   std::iota(order.begin(), order.end(), std::size_t(0));
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return goes_before(logs[a], candidate.ways[a].explanation, logs[b],
-                       candidate.ways[b].explanation);
+    return goes_before(logs[a], candidate.voted_hypotheses[a].hypothesis, logs[b],
+                       candidate.voted_hypotheses[b].hypothesis);
   });
-  std::vector<FinalFit> ways;
+  std::vector<FinalFit> voted_hypotheses;
   double sum = 0;
   candidate.shares.clear();
   for (const std::size_t i : order) {
     const double below = logs[order.front()] - logs[i];
-    if (below > least_evidence / 2) continue;
-    ways.push_back(std::move(candidate.ways[i]));
+    if (below > min_evidence / 2) continue;
+    voted_hypotheses.push_back(std::move(candidate.voted_hypotheses[i]));
     candidate.shares.push_back(std::exp(-below));
     sum += candidate.shares.back();
   }
   for (double& share : candidate.shares) share /= sum;
-  candidate.ways = std::move(ways);
+  candidate.voted_hypotheses = std::move(voted_hypotheses);
 }
 
-void weigh(Candidate& candidate, std::span<const CameraView> views, const Scene* scene,
-           double least_evidence) {
+void verify_hypotheses(Candidate& candidate, std::span<const CameraView> views, const Scene* scene,
+                       double min_evidence) {
   const auto by_fit = [](const FinalFit& a, const FinalFit& b) {
     return a.chi_square < b.chi_square;
   };
-  const auto fitting = std::min_element(candidate.ways.begin(), candidate.ways.end(), by_fit);
+  const auto fitting = std::min_element(candidate.voted_hypotheses.begin(),
+                                        candidate.voted_hypotheses.end(), by_fit);
   const double scale =
       std::max(1.0, fitting->chi_square / std::max(1, fitting->degrees_of_freedom));
   const double least = fitting->chi_square;
   double largest_unseen = 0;
   std::vector<double> logs;
-  for (std::size_t i = 0; i < candidate.ways.size(); ++i) {
-    const FinalFit& way = candidate.ways[i];
-    const double unseen = scene ? log_of_unseen(way.explanation, views, *scene) : 0;
+  for (std::size_t i = 0; i < candidate.voted_hypotheses.size(); ++i) {
+    const FinalFit& voted = candidate.voted_hypotheses[i];
+    const double unseen = scene ? log_of_unseen(voted.hypothesis, views, *scene) : 0;
     if (i == 0 || unseen > largest_unseen) largest_unseen = unseen;
-    logs.push_back(-(way.chi_square - least) / scale / 2 + unseen);
+    logs.push_back(-(voted.chi_square - least) / scale / 2 + unseen);
   }
-  const double wrong = std::pow(kWrongId, double(candidate.best().readings.size()));
+  const double wrong = std::pow(kWrongId, double(candidate.best().correspondences.size()));
   const double right = (1 - wrong) * std::exp(largest_unseen);
   candidate.there = right / (right + wrong);
-  share_out(candidate, std::move(logs), least_evidence);
+  share_out(candidate, std::move(logs), min_evidence);
 }
 
 }  // namespace
 
-bool goes_before(double log, const Explanation& way, double other_log, const Explanation& other) {
+bool goes_before(double log, const PoseHypothesis& voted, double other_log,
+                 const PoseHypothesis& other) {
   constexpr double kRounding = 1e-9;
   const double rank = std::round(log / kRounding), other_rank = std::round(other_log / kRounding);
-  return rank != other_rank ? rank > other_rank : way.type()->name < other.type()->name;
+  return rank != other_rank ? rank > other_rank : voted.type()->name < other.type()->name;
 }
 
-void weigh(std::vector<Candidate>& candidates, std::span<const CameraView> views,
-           const ReconstructOptions& options) {
+void verify_hypotheses(std::vector<Candidate>& candidates, std::span<const CameraView> views,
+                       const ReconstructOptions& options) {
   const bool any_weak =
       std::any_of(candidates.begin(), candidates.end(), [](const auto& candidate) {
         return candidate.rejected.empty() && is_weak(candidate.best());
@@ -238,8 +251,8 @@ void weigh(std::vector<Candidate>& candidates, std::span<const CameraView> views
   const auto scene = any_weak ? scene_of(candidates) : nullptr;
   for (Candidate& candidate : candidates) {
     if (!candidate.rejected.empty()) continue;
-    weigh(candidate, views, is_weak(candidate.best()) ? scene.get() : nullptr,
-          options.least_evidence);
+    verify_hypotheses(candidate, views, is_weak(candidate.best()) ? scene.get() : nullptr,
+                      options.min_evidence);
     if (candidate.there < 0.5) {
       candidate.rejected = "other markers of a " + candidate.best().type()->name +
                            " there should be seen, and are not: its id is more likely read wrongly";
@@ -247,4 +260,4 @@ void weigh(std::vector<Candidate>& candidates, std::span<const CameraView> views
   }
 }
 
-}  // namespace vantage::detail
+}  // namespace vantage::reconstruction::detail

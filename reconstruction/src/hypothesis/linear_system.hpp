@@ -9,15 +9,16 @@
 
 // Private: what single observations say of an object's pose, as 6×6 sums that are cheap to add up
 // and to ask "what if": hundreds of hypotheses are weighed by them before one is fitted for good.
-namespace vantage::detail {
+namespace vantage::reconstruction::detail {
 
 using Vector6d = Eigen::Matrix<double, 6, 1>;
 
-/// A sighting taken for a certain feature of a certain type. One sighting has several readings if
-/// its key is on several features, and for a pose one by each symmetry of the type.
-struct Reading {
-  const Sighting* sighting = nullptr;
-  std::size_t number = 0;  ///< of the sighting, in its component
+/// A measurement taken for a certain feature of a certain type. One measurement has several
+/// correspondences if its key is on several features, and for a pose one by each symmetry of the
+/// type.
+struct Correspondence {
+  const Measurement* measurement = nullptr;
+  std::size_t number = 0;  ///< of the measurement, in its component
   const TypeFeature* feature = nullptr;
   std::vector<Eigen::Vector3d> points_m = {};  ///< of the feature; empty for a pose
   Pose T_object_feature = {};                  ///< of a pose
@@ -25,33 +26,33 @@ struct Reading {
   const ObjectType& type() const { return *feature->type; }
 };
 
-/// Whether both may come of one object: it shows each of its features by a sighting of its own.
-inline bool go_together(const Reading& a, const Reading& b) {
+/// Whether both may come of one object: it shows each of its features by a measurement of its own.
+inline bool go_together(const Correspondence& a, const Correspondence& b) {
   return a.number != b.number && a.feature != b.feature;
 }
 
-/// What a reading says at a pose: chi-square and its derivatives by (t, r), see Matrix6d.
-struct Evidence {
+/// What a correspondence says at a pose: chi-square and its derivatives by (t, r), see Matrix6d.
+struct LinearSystem {
   Matrix6d information = Matrix6d::Zero();  ///< JᵀWJ
-  Vector6d slope = Vector6d::Zero();        ///< JᵀWr
+  Vector6d gradient = Vector6d::Zero();     ///< JᵀWr
   double chi_square = 0;
   double squared_px = 0;  ///< sum over the points; of a pose 0
   int points = 0;         ///< a pose counts as four, and is worth as much as a marker
   bool in_front = true;   ///< of the camera, every point; otherwise nothing else is of use
 
-  void add(const Evidence& other);
+  void add(const LinearSystem& other);
   double rms_px() const;
 };
 
 inline constexpr std::size_t kAllPoints = std::size_t(-1);
 
-/// @param least_sigma_px is used for corners that claim to be more precise: what a hypothesis may
+/// @param min_sigma_px is used for corners that claim to be more precise: what a hypothesis may
 /// be off by, beside the corners' noise. With it, half of what the camera's own covariance moves
-/// the corners by comes in too, so that a bound of six times `least_sigma_px` lets three standard
+/// the corners by comes in too, so that a bound of six times `min_sigma_px` lets three standard
 /// deviations of it pass. 0: the corners' noise alone.
-/// @param most_points leaves out the points behind the first ones.
-Evidence evidence_of(const Reading& reading, const Pose& T_world_object, double least_sigma_px,
-                     std::size_t most_points = kAllPoints);
+/// @param max_points leaves out the points behind the first ones.
+LinearSystem linear_system_of(const Correspondence& correspondence, const Pose& T_world_object,
+                              double min_sigma_px, std::size_t max_points = kAllPoints);
 
 /// `pose` moved by (t, r) as Matrix6d has it.
 Pose moved(const Pose& pose, const Vector6d& step);
@@ -59,15 +60,15 @@ Pose moved(const Pose& pose, const Vector6d& step);
 /// The rotation vector of a rotation.
 Eigen::Vector3d rotation_vector(const Eigen::Matrix3d& rotation);
 
-/// A pose that explains readings best, by damped Gauss–Newton steps.
+/// A pose that explains correspondences best, by damped Gauss–Newton steps.
 struct Refined {
   Pose T_world_object;
-  Evidence sum;                ///< at that pose
-  std::vector<Evidence> each;  ///< of each reading
+  LinearSystem sum;                ///< at that pose
+  std::vector<LinearSystem> each;  ///< of each correspondence
 };
 
-/// Nothing if the start is behind a camera or the readings leave the pose open.
-std::optional<Refined> refine(std::span<const Reading* const> readings, const Pose& start,
-                              double least_sigma_px);
+/// Nothing if the start is behind a camera or the correspondences leave the pose open.
+std::optional<Refined> refine(std::span<const Correspondence* const> correspondences,
+                              const Pose& start, double min_sigma_px);
 
-}  // namespace vantage::detail
+}  // namespace vantage::reconstruction::detail

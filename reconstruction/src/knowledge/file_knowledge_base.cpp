@@ -19,11 +19,13 @@ class Files {
 
   void add(const fs::path& path) {
     if (!fs::is_directory(path)) return add_yaml(path);
-    for (ObjectType& type : detail::read_bop_types(path, read_)) add(std::move(type));
+    for (ObjectType& type : reconstruction::detail::read_bop_types(path, read_))
+      add(std::move(type));
   }
 
   MemoryKnowledgeBase finished() && {
-    detail::check_no_circle(parents_, places_);  // here, where the hierarchy's lines are known
+    reconstruction::detail::check_no_circle(
+        parents_, places_);  // here, where the hierarchy's lines are known
     return MemoryKnowledgeBase(std::move(types_), std::move(hierarchy_));
   }
 
@@ -42,7 +44,7 @@ class Files {
   void add_hierarchy(const Value& value) {
     for (const auto& [name, parents] : value.members()) {
       const auto names = parents.as<std::vector<std::string>>();
-      detail::add_parents(parents_, name, names);
+      reconstruction::detail::add_parents(parents_, name, names);
       std::vector<std::string>& all = hierarchy_[name];
       all.insert(all.end(), names.begin(), names.end());
       places_.try_emplace(name, parents.place());
@@ -50,16 +52,16 @@ class Files {
   }
 
   void add(ObjectType type) {
-    detail::add_parents(parents_, type.name, type.is_a);
+    reconstruction::detail::add_parents(parents_, type.name, type.is_a);
     places_.try_emplace(type.name, type.place);
     types_.push_back(std::move(type));
   }
 
   std::vector<fs::path>& read_;
-  detail::TypeReader types_reader_;
+  reconstruction::detail::TypeReader types_reader_;
   std::vector<ObjectType> types_;
   Hierarchy hierarchy_;
-  detail::Parents parents_;                    // of both
+  reconstruction::detail::Parents parents_;    // of both
   std::map<std::string, std::string> places_;  // name → where its parents are said first
 };
 

@@ -8,7 +8,7 @@
 
 #include "vantage/raycore/error.hpp"
 
-namespace vantage::detail {
+namespace vantage::reconstruction::detail {
 namespace {
 
 const std::vector<std::string>& parents_of(const Parents& parents, std::string_view name) {
@@ -95,4 +95,4 @@ void check_no_circle(const Parents& parents, const std::map<std::string, std::st
                               fmt::join(way, " is a ")));
 }
 
-}  // namespace vantage::detail
+}  // namespace vantage::reconstruction::detail

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-namespace vantage::detail {
+namespace vantage::reconstruction::detail {
 
 /// Name → the names of its parents.
 using Parents = std::map<std::string, std::vector<std::string>, std::less<>>;
@@ -21,4 +21,4 @@ bool has_ancestor(const Parents& parents, std::string_view name, std::string_vie
 /// @throws Error bad_input for a name that is its own ancestor; the message has the way around.
 void check_no_circle(const Parents& parents, const std::map<std::string, std::string>& places);
 
-}  // namespace vantage::detail
+}  // namespace vantage::reconstruction::detail

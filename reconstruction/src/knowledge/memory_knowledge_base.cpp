@@ -10,26 +10,26 @@ namespace vantage {
 MemoryKnowledgeBase::MemoryKnowledgeBase(std::vector<ObjectType> types, Hierarchy hierarchy) {
   std::map<std::string, std::string> places;  // of what names are
   for (const auto& [name, parents] : hierarchy) {
-    detail::add_parents(parents_, name, parents);
+    reconstruction::detail::add_parents(parents_, name, parents);
     places[name] = "hierarchy: " + name;
   }
   for (ObjectType& type : types) {
-    detail::check_type(type);
+    reconstruction::detail::check_type(type);
     const auto shared = std::make_shared<const ObjectType>(std::move(type));
     const auto [entry, is_new] = by_name_.try_emplace(shared->name, shared);
     if (!is_new) {
-      throw bad_input(detail::place_of(*shared),
+      throw bad_input(reconstruction::detail::place_of(*shared),
                       fmt::format("the name \"{}\" is taken by {}; types' names have to differ",
-                                  shared->name, detail::place_of(*entry->second)));
+                                  shared->name, reconstruction::detail::place_of(*entry->second)));
     }
     types_.push_back(shared);
-    detail::add_parents(parents_, shared->name, shared->is_a);
-    places[shared->name] = detail::place_of(*shared);
+    reconstruction::detail::add_parents(parents_, shared->name, shared->is_a);
+    places[shared->name] = reconstruction::detail::place_of(*shared);
     for (std::size_t i = 0; i < shared->features.size(); ++i) {
       by_feature_[shared->features[i].key].push_back({shared, i});
     }
   }
-  detail::check_no_circle(parents_, places);
+  reconstruction::detail::check_no_circle(parents_, places);
 }
 
 TypePtr MemoryKnowledgeBase::find(std::string_view name) const {
@@ -38,7 +38,7 @@ TypePtr MemoryKnowledgeBase::find(std::string_view name) const {
 }
 
 bool MemoryKnowledgeBase::is_a(std::string_view name, std::string_view ancestor) const {
-  return detail::has_ancestor(parents_, name, ancestor);
+  return reconstruction::detail::has_ancestor(parents_, name, ancestor);
 }
 
 const std::vector<TypeFeature>& MemoryKnowledgeBase::with_feature(const FeatureKey& key) const {

@@ -9,7 +9,7 @@
 #include "documents/value_readers.hpp"
 #include "vantage/raycore/error.hpp"
 
-namespace vantage::detail {
+namespace vantage::reconstruction::detail {
 namespace {
 
 Symmetries read_symmetries(const Value& value) {
@@ -94,4 +94,4 @@ void TypeReader::take_dictionary(const Marker& marker, const Value& value) {
                   marker.id, marker.dictionary, name, place));
 }
 
-}  // namespace vantage::detail
+}  // namespace vantage::reconstruction::detail

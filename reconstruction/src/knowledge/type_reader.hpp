@@ -9,7 +9,7 @@
 #include "documents/document_value.hpp"
 #include "vantage/reconstruction/object_type.hpp"
 
-namespace vantage::detail {
+namespace vantage::reconstruction::detail {
 
 /// Reads the types of knowledge base files; remembers the markers of all of them.
 class TypeReader {
@@ -31,4 +31,4 @@ class TypeReader {
   std::map<FeatureKey, std::pair<std::string, std::string>> dictionaries_;  // name, where it stands
 };
 
-}  // namespace vantage::detail
+}  // namespace vantage::reconstruction::detail

@@ -9,10 +9,10 @@
 #include "pose/principal_axes.hpp"
 #include "pose/solve_pnp.hpp"
 
-namespace vantage::detail {
+namespace vantage::reconstruction::detail {
 namespace {
 
-constexpr int kMostSelections = 20;
+constexpr int kMaxSelections = 20;
 constexpr double kBoardLossSigmas = 3;
 
 double worst_residual(const PointTerm& term, const Pose& T_cam_world) {
@@ -68,7 +68,7 @@ std::optional<BoardFit> settle(std::span<const BoardPair> pairs, const Pose& T_c
   BoardFit board{agreement(pairs, T_cam_world, kRough * inlier_px).pairs, {}};
   board.fit.T_ref_body = T_cam_world;
   double tolerance_px = kRough * inlier_px;
-  for (int round = 0; round < kMostSelections; ++round) {
+  for (int round = 0; round < kMaxSelections; ++round) {
     if (board.points(pairs) < 4) return {};
     const auto fit = fit_pairs(pairs, board.pairs, board.T_cam_world(), kBoardLossSigmas);
     if (!fit) return {};
@@ -166,7 +166,7 @@ double excess_of(double chi_square, std::size_t points) {
 
 namespace {
 
-constexpr std::size_t kMostSettled = 8;
+constexpr std::size_t kMaxSettled = 8;
 
 std::vector<PoseGuess> guesses_from_all(std::span<const BoardPair> pairs) {
   std::vector<Eigen::Vector3d> points;
@@ -176,7 +176,7 @@ std::vector<PoseGuess> guesses_from_all(std::span<const BoardPair> pairs) {
     pixels.insert(pixels.end(), pair.term.pixels.begin(), pair.term.pixels.end());
   }
   if (pairs.empty()) return {};
-  return guess_poses(*pairs.front().term.lens, points, pixels);
+  return solve_pnp(*pairs.front().term.lens, points, pixels);
 }
 
 }  // namespace
@@ -194,7 +194,7 @@ std::vector<Pose> hypotheses(std::span<const BoardPair> pairs, double inlier_px)
     }
   };
   for (const BoardPair& pair : pairs) {
-    add(guess_poses(*pair.term.lens, pair.term.points_m, pair.term.pixels));
+    add(solve_pnp(*pair.term.lens, pair.term.points_m, pair.term.pixels));
   }
   if (pairs.size() > 1) add(guesses_from_all(pairs));
   std::ranges::stable_sort(scored, std::ranges::greater{}, &Scored::score);
@@ -216,7 +216,7 @@ std::vector<BoardFit> settled_fits(std::span<const BoardPair> pairs,
     fits.push_back(std::move(*fit));
   };
   for (const Pose& start : hypotheses) {
-    if (tried.size() == kMostSettled || all_agree) break;
+    if (tried.size() == kMaxSettled || all_agree) break;
     if (tried.insert(agreement(pairs, start, kRough * inlier_px).pairs).second) add(start);
   }
   const auto best_first = [&](const BoardFit& a, const BoardFit& b) {
@@ -230,4 +230,4 @@ std::vector<BoardFit> settled_fits(std::span<const BoardPair> pairs,
   return fits;
 }
 
-}  // namespace vantage::detail
+}  // namespace vantage::reconstruction::detail

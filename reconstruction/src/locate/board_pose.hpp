@@ -6,7 +6,7 @@
 
 #include "pose/pose_fit.hpp"
 
-namespace vantage::detail {
+namespace vantage::reconstruction::detail {
 
 /// An observation that may be this feature of the board. Its term is for the board's pose
 /// T_cam_world: the body is the world, the reference the camera.
@@ -79,4 +79,4 @@ std::vector<Pose> hypotheses(std::span<const BoardPair> pairs, double inlier_px)
 std::vector<BoardFit> settled_fits(std::span<const BoardPair> pairs,
                                    std::span<const Pose> hypotheses, double inlier_px);
 
-}  // namespace vantage::detail
+}  // namespace vantage::reconstruction::detail

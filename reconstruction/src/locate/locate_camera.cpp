@@ -11,9 +11,9 @@
 namespace vantage {
 namespace {
 
-using detail::BoardFit;
-using detail::BoardPair;
-using detail::SeenBoard;
+using reconstruction::detail::BoardFit;
+using reconstruction::detail::BoardPair;
+using reconstruction::detail::SeenBoard;
 
 std::string disagreement(const SeenBoard& seen, const BoardFit* best, double inlier_px) {
   if (!best) {
@@ -33,16 +33,16 @@ std::string disagreement(const SeenBoard& seen, const BoardFit* best, double inl
 /// chi-square is that of the corners' noise alone.
 LocatedPose located(std::span<const BoardPair> all, const BoardFit& board) {
   std::vector<BoardPair> pairs(all.begin(), all.end());
-  const BoardFit weighed = detail::with_model_error(pairs, board);
+  const BoardFit weighed = reconstruction::detail::with_model_error(pairs, board);
   Matrix6d information = Matrix6d::Zero();
   for (const std::size_t i : weighed.pairs) {
-    detail::PointTerm term = pairs[i].term;
+    reconstruction::detail::PointTerm term = pairs[i].term;
     term.T_cam_ref = weighed.T_cam_world();  // and the body, which is the world, where it is
-    const auto j = detail::camera_jacobian(term, {});
+    const auto j = reconstruction::detail::camera_jacobian(term, {});
     information += j.transpose() * j / (term.sigma_px * term.sigma_px);
   }
-  return {weighed.T_cam_world().inverse(), detail::covariance_of(information), weighed.fit.rms_px,
-          board.fit.chi_square};
+  return {weighed.T_cam_world().inverse(), reconstruction::detail::covariance_of(information),
+          weighed.fit.rms_px, board.fit.chi_square};
 }
 
 double turn_between(const Pose& a, const Pose& b) {
@@ -52,12 +52,12 @@ double turn_between(const Pose& a, const Pose& b) {
 /// Poses from which another minimum over the same pairs may be reached.
 std::vector<Pose> rival_starts(std::span<const BoardPair> all, const BoardFit& board,
                                std::span<const Pose> hypotheses) {
-  constexpr std::size_t kMostHypotheses = 6;
-  std::vector<Pose> starts = detail::mirrored_poses(all, board);
+  constexpr std::size_t kMaxHypotheses = 6;
+  std::vector<Pose> starts = reconstruction::detail::mirrored_poses(all, board);
   std::vector<Eigen::Vector3d> points;
   std::vector<Eigen::Vector2d> pixels;
   for (const std::size_t i : board.pairs) {
-    const detail::PointTerm& term = all[i].term;
+    const reconstruction::detail::PointTerm& term = all[i].term;
     points.insert(points.end(), term.points_m.begin(), term.points_m.end());
     pixels.insert(pixels.end(), term.pixels.begin(), term.pixels.end());
   }
@@ -67,10 +67,11 @@ std::vector<Pose> rival_starts(std::span<const BoardPair> all, const BoardFit& b
     const auto close = [&](const Pose& known) { return turn_between(known, start) < kClose; };
     if (!close(board.T_cam_world()) && std::ranges::none_of(starts, close)) starts.push_back(start);
   };
-  for (const auto& guess : detail::guess_poses(*all.front().term.lens, points, pixels)) {
+  for (const auto& guess :
+       reconstruction::detail::solve_pnp(*all.front().term.lens, points, pixels)) {
     add(guess.T_cam_body);
   }
-  for (const Pose& pose : hypotheses.first(std::min(hypotheses.size(), kMostHypotheses))) add(pose);
+  for (const Pose& pose : hypotheses.first(std::min(hypotheses.size(), kMaxHypotheses))) add(pose);
   return starts;
 }
 
@@ -98,7 +99,7 @@ const BoardFit* contradiction(std::span<const BoardPair> all, std::span<const Bo
 
 /// Fills in the pose, or the reason why it remains open.
 void decide(std::span<const BoardPair> all, std::span<const BoardFit> fits,
-            std::span<const Pose> hypotheses, double least_evidence, CameraLocation& location) {
+            std::span<const Pose> hypotheses, double min_evidence, CameraLocation& location) {
   BoardFit best = fits.front();
   if (const BoardFit* other = contradiction(all, fits)) {
     location.alternatives = {located(all, best), located(all, *other)};
@@ -108,7 +109,8 @@ void decide(std::span<const BoardPair> all, std::span<const BoardFit> fits,
         best.pairs.size(), other->pairs.size());
     return;
   }
-  const auto rivals = detail::other_minima(all, best, rival_starts(all, best, hypotheses));
+  const auto rivals =
+      reconstruction::detail::other_minima(all, best, rival_starts(all, best, hypotheses));
   if (rivals.empty()) {
     location.pose = located(all, best);
     return;
@@ -116,15 +118,15 @@ void decide(std::span<const BoardPair> all, std::span<const BoardFit> fits,
   BoardFit other = best;
   other.fit = rivals.front();
   if (other.fit.chi_square < best.fit.chi_square) std::swap(best, other);
-  const double excess = detail::excess_of(best.fit.chi_square, best.points(all));
+  const double excess = reconstruction::detail::excess_of(best.fit.chi_square, best.points(all));
   const double evidence = (other.fit.chi_square - best.fit.chi_square) / excess;
-  if (evidence >= least_evidence) {
+  if (evidence >= min_evidence) {
     location.pose = located(all, best);
     return;
   }
   location.alternatives = {located(all, best), located(all, other)};
   location.reason = flip_reason(location.alternatives[0], location.alternatives[1],
-                                best.pairs.size(), evidence, least_evidence);
+                                best.pairs.size(), evidence, min_evidence);
 }
 
 }  // namespace
@@ -132,12 +134,13 @@ void decide(std::span<const BoardPair> all, std::span<const BoardFit> fits,
 CameraLocation locate_camera(const Lens& lens, std::span<const Observation> observations,
                              std::span<const ObjectFeature> board, const LocateOptions& options) {
   CameraLocation location;
-  const SeenBoard seen = detail::look_for(lens, observations, board);
+  const SeenBoard seen = reconstruction::detail::match_board(lens, observations, board);
   location.outliers = seen.observations;
-  location.reason = detail::lack_of(seen, observations, board);
+  location.reason = reconstruction::detail::lack_of(seen, observations, board);
   if (!location.reason.empty()) return location;
-  const std::vector<Pose> hypotheses = detail::hypotheses(seen.pairs, options.inlier_px);
-  const auto fits = detail::settled_fits(seen.pairs, hypotheses, options.inlier_px);
+  const std::vector<Pose> hypotheses =
+      reconstruction::detail::hypotheses(seen.pairs, options.inlier_px);
+  const auto fits = reconstruction::detail::settled_fits(seen.pairs, hypotheses, options.inlier_px);
   const BoardFit* best = fits.empty() ? nullptr : &fits.front();
   // A marker that is read wrongly fits to a pose of its own as well as a right one.
   if (!best || (best->pairs.size() < 2 && seen.observations.size() > 1)) {
@@ -148,7 +151,7 @@ CameraLocation locate_camera(const Lens& lens, std::span<const Observation> obse
     location.inliers.push_back(seen.pairs[i].observation);
     std::erase(location.outliers, seen.pairs[i].observation);
   }
-  decide(seen.pairs, fits, hypotheses, options.least_evidence, location);
+  decide(seen.pairs, fits, hypotheses, options.min_evidence, location);
   return location;
 }
 

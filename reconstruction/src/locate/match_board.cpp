@@ -4,7 +4,7 @@
 
 #include <utility>
 
-namespace vantage::detail {
+namespace vantage::reconstruction::detail {
 namespace {
 
 std::string key_text(const FeatureKey& key) {
@@ -13,8 +13,8 @@ std::string key_text(const FeatureKey& key) {
 
 }  // namespace
 
-SeenBoard look_for(const Lens& lens, std::span<const Observation> observations,
-                   std::span<const ObjectFeature> board) {
+SeenBoard match_board(const Lens& lens, std::span<const Observation> observations,
+                      std::span<const ObjectFeature> board) {
   SeenBoard seen;
   for (std::size_t o = 0; o < observations.size(); ++o) {
     const auto* data = std::get_if<SeenPoints>(&observations[o].data);
@@ -61,4 +61,4 @@ std::string lack_of(const SeenBoard& seen, std::span<const Observation> observat
   return {};
 }
 
-}  // namespace vantage::detail
+}  // namespace vantage::reconstruction::detail

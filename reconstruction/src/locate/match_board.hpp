@@ -7,7 +7,7 @@
 #include "locate/board_pose.hpp"
 #include "vantage/reconstruction/observation.hpp"
 
-namespace vantage::detail {
+namespace vantage::reconstruction::detail {
 
 /// What of the board is seen.
 struct SeenBoard {
@@ -18,11 +18,11 @@ struct SeenBoard {
 };
 
 /// Pairs every observation of points with every feature of the board that has its key.
-SeenBoard look_for(const Lens& lens, std::span<const Observation> observations,
-                   std::span<const ObjectFeature> board);
+SeenBoard match_board(const Lens& lens, std::span<const Observation> observations,
+                      std::span<const ObjectFeature> board);
 
 /// Why nothing can be known of the camera before anything is computed; empty if something can.
 std::string lack_of(const SeenBoard& seen, std::span<const Observation> observations,
                     std::span<const ObjectFeature> board);
 
-}  // namespace vantage::detail
+}  // namespace vantage::reconstruction::detail

@@ -62,8 +62,8 @@ std::optional<Found> refined(const cv::Mat1f& light, const Lens* lens, const Fam
   const MarkerCells cells = marker_cells(family.name, id, "dictionaries");
   std::array<Eigen::Vector2d, 4> start;
   for (std::size_t i = 0; i < 4; ++i) start[i] = {double(corners[i].x), double(corners[i].y)};
-  const auto fit =
-      detail::refine_corners(light, detail::marker_edges(cells), cells.side, start, lens);
+  const auto fit = reconstruction::detail::refine_corners(
+      light, reconstruction::detail::marker_edges(cells), cells.side, start, lens);
   if (!fit) return std::nullopt;
   SeenPoints points{{fit->pixels.begin(), fit->pixels.end()}, fit->sigma_px};
   Found found{{marker_key(family.name, id), std::move(points)}, {0, 0}, 0, fit->support};
@@ -97,7 +97,7 @@ std::vector<Family> checked_families(const std::vector<std::string>& names) {
   std::vector<Family> families;
   std::set<std::string> seen;
   for (const std::string& name : names) {
-    auto dictionary = detail::aruco_dictionary(name);
+    auto dictionary = reconstruction::detail::aruco_dictionary(name);
     if (!dictionary) {
       throw bad_input(where, fmt::format("there is no marker dictionary '{}'; expected one of {}",
                                          name, fmt::join(marker_dictionaries(), ", ")));
@@ -142,7 +142,7 @@ std::vector<Observation> ArucoDetector::detect(const ColorImage& image) const {
   for (const Family& family : impl_->families) {
     std::vector<int> ids;
     std::vector<std::vector<cv::Point2f>> corners;
-    detail::detect_in_grey(grey, family.dictionary, ids, corners);
+    reconstruction::detail::detect_in_grey(grey, family.dictionary, ids, corners);
     for (std::size_t i = 0; i < ids.size(); ++i) {
       if (auto found = refined(light, lens, family, ids[i], corners[i]))
         all.push_back(std::move(*found));

@@ -2,7 +2,7 @@
 
 #include <array>
 
-namespace vantage::detail {
+namespace vantage::reconstruction::detail {
 namespace {
 
 bool is_black(const MarkerCells& cells, int column, int row) {
@@ -36,4 +36,4 @@ std::vector<MarkerEdge> marker_edges(const MarkerCells& cells) {
   return edges;
 }
 
-}  // namespace vantage::detail
+}  // namespace vantage::reconstruction::detail

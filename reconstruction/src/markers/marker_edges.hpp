@@ -5,7 +5,7 @@
 
 #include "vantage/reconstruction/marker.hpp"
 
-namespace vantage::detail {
+namespace vantage::reconstruction::detail {
 
 /// Where black meets white on a marker, one edge of a cell. On the print, from upper left (-1, -1)
 /// to lower right (1, 1), y down; black lies at the right hand of who goes from `from` to `to`.
@@ -16,4 +16,4 @@ struct MarkerEdge {
 /// All of them: a marker's outline, and those inside. Around the marker it is white.
 std::vector<MarkerEdge> marker_edges(const MarkerCells& cells);
 
-}  // namespace vantage::detail
+}  // namespace vantage::reconstruction::detail

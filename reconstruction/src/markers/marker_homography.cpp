@@ -3,7 +3,7 @@
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 
-namespace vantage::detail {
+namespace vantage::reconstruction::detail {
 namespace {
 
 Eigen::Vector2d seen(const Lens* lens, const Eigen::Vector2d& flat) {
@@ -68,4 +68,4 @@ std::optional<PrintMap> print_map(const std::array<Eigen::Vector2d, 4>& pixels, 
   return map;
 }
 
-}  // namespace vantage::detail
+}  // namespace vantage::reconstruction::detail

@@ -6,7 +6,7 @@
 
 #include "vantage/raycore/lens.hpp"
 
-namespace vantage::detail {
+namespace vantage::reconstruction::detail {
 
 /// From a marker's print (as MarkerEdge has it) to pixels: a homography, and after it the lens, if
 /// that is known. The homography then goes to the plane z = 1.
@@ -30,4 +30,4 @@ inline const std::array<Eigen::Vector2d, 4> kPrintCorners = {{{-1, -1}, {1, -1},
 /// The map that takes the print's corners to these pixels; nothing if three are on a line.
 std::optional<PrintMap> print_map(const std::array<Eigen::Vector2d, 4>& pixels, const Lens* lens);
 
-}  // namespace vantage::detail
+}  // namespace vantage::reconstruction::detail

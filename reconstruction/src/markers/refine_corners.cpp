@@ -7,7 +7,7 @@
 
 #include "markers/marker_homography.hpp"
 
-namespace vantage::detail {
+namespace vantage::reconstruction::detail {
 namespace {
 
 constexpr double kDarkest = 0.02;    ///< fall of light that is an edge
@@ -84,7 +84,7 @@ namespace {
 
 using Matrix9d = Eigen::Matrix<double, 9, 9>;
 
-constexpr int kMostCornerMoves = 8;
+constexpr int kMaxCornerMoves = 8;
 constexpr double kSettledPx = 0.002;  ///< a smaller step of the corners is the last one
 constexpr double kSupport = 0.6;
 constexpr double kMaxSigmaPx = 0.5;
@@ -184,7 +184,7 @@ std::optional<RefinedCorners> refine_corners(const cv::Mat1f& light,
   if (!map) return std::nullopt;
   Step step;
   RefinedCorners refined;
-  for (int round = 0; round < kMostCornerMoves; ++round) {
+  for (int round = 0; round < kMaxCornerMoves; ++round) {
     const auto spots = edge_spots(light, *map, edges, cells);
     step = solve(spots);
     if (!step.by.allFinite()) return std::nullopt;
@@ -203,4 +203,4 @@ std::optional<RefinedCorners> refine_corners(const cv::Mat1f& light,
   return sure ? std::optional(refined) : std::nullopt;
 }
 
-}  // namespace vantage::detail
+}  // namespace vantage::reconstruction::detail

@@ -10,7 +10,7 @@
 #include "markers/marker_homography.hpp"
 #include "vantage/raycore/lens.hpp"
 
-namespace vantage::detail {
+namespace vantage::reconstruction::detail {
 
 using Vector9d = Eigen::Matrix<double, 9, 1>;
 
@@ -47,4 +47,4 @@ std::optional<RefinedCorners> refine_corners(const cv::Mat1f& light,
                                              const std::array<Eigen::Vector2d, 4>& start,
                                              const Lens* lens);
 
-}  // namespace vantage::detail
+}  // namespace vantage::reconstruction::detail

@@ -8,27 +8,27 @@
 #include "pose/principal_axes.hpp"
 #include "pose/solve_pnp.hpp"
 
-namespace vantage::detail {
+namespace vantage::reconstruction::detail {
 namespace {
 
-constexpr std::size_t kMostTriples = 200;  // for each view and type
-constexpr double kLeastExtent = 1e-3;      // collinear: second largest extent over the largest
+constexpr std::size_t kMaxTriples = 200;  // for each view and type
+constexpr double kMinExtent = 1e-3;       // collinear: second largest extent over the largest
 
-using Readings = std::vector<const Reading*>;
+using Readings = std::vector<const Correspondence*>;
 
-bool enough_for_a_pose(const Reading& reading) {
-  if (reading.sighting->pose()) return true;
-  const auto& points = reading.points_m;
+bool enough_for_a_pose(const Correspondence& correspondence) {
+  if (correspondence.measurement->pose()) return true;
+  const auto& points = correspondence.points_m;
   if (points.size() < 4) return false;
   const Eigen::Vector3d extents = principal_axes(points).extents;
-  return extents[1] > kLeastExtent * extents[0];
+  return extents[1] > kMinExtent * extents[0];
 }
 
-double size_px(const Readings& readings) {
+double size_px(const Readings& correspondences) {
   Eigen::Vector2d low = Eigen::Vector2d::Constant(std::numeric_limits<double>::infinity());
   Eigen::Vector2d high = -low;
-  for (const Reading* reading : readings) {
-    const SeenPoints* seen = reading->sighting->points();
+  for (const Correspondence* correspondence : correspondences) {
+    const SeenPoints* seen = correspondence->measurement->points();
     if (!seen) return std::numeric_limits<double>::infinity();  // as good as a pose can be
     for (const Eigen::Vector2d& pixel : seen->pixels) {
       low = low.cwiseMin(pixel);
@@ -38,32 +38,34 @@ double size_px(const Readings& readings) {
   return (high - low).norm();
 }
 
-/// Seeds by their sightings.
+/// Seeds by their measurements.
 class Collector {
  public:
-  void add(Readings readings) {
+  void add(Readings correspondences) {
     std::vector<std::size_t> numbers;
-    for (const Reading* reading : readings) numbers.push_back(reading->number);
-    SeedGroup& group = groups_[numbers];
-    group.size_px = size_px(readings);
+    for (const Correspondence* correspondence : correspondences)
+      numbers.push_back(correspondence->number);
+    SampleGroup& group = groups_[numbers];
+    group.size_px = size_px(correspondences);
     group.numbers = std::move(numbers);
-    group.seeds.emplace_back(std::move(readings));
+    group.samples.emplace_back(std::move(correspondences));
   }
 
-  std::vector<SeedGroup> sorted() {
-    std::vector<SeedGroup> groups;
+  std::vector<SampleGroup> sorted() {
+    std::vector<SampleGroup> groups;
     for (auto& [numbers, group] : groups_) groups.push_back(std::move(group));
-    std::stable_sort(groups.begin(), groups.end(),
-                     [](const SeedGroup& a, const SeedGroup& b) { return a.size_px > b.size_px; });
+    std::stable_sort(groups.begin(), groups.end(), [](const SampleGroup& a, const SampleGroup& b) {
+      return a.size_px > b.size_px;
+    });
     return groups;
   }
 
  private:
-  std::map<std::vector<std::size_t>, SeedGroup> groups_;
+  std::map<std::vector<std::size_t>, SampleGroup> groups_;
 };
 
-/// Sightings of few points in one view, read as one type: all of them, if they may be one object,
-/// and three at a time.
+/// Measurements of few points in one view, read as one type: all of them, if they may be one
+/// object, and three at a time.
 void add_joined(const Readings& few, Collector& collector) {
   bool one_object = few.size() > 3;
   for (std::size_t i = 0; i < few.size(); ++i) {
@@ -75,7 +77,7 @@ void add_joined(const Readings& few, Collector& collector) {
   std::size_t triples = 0;
   for (std::size_t k = 2; k < few.size(); ++k) {
     for (std::size_t j = 1; j < k; ++j) {
-      for (std::size_t i = 0; i < j && triples < kMostTriples; ++i) {
+      for (std::size_t i = 0; i < j && triples < kMaxTriples; ++i) {
         if (!go_together(*few[i], *few[j]) || !go_together(*few[i], *few[k]) ||
             !go_together(*few[j], *few[k])) {
           continue;
@@ -89,41 +91,42 @@ void add_joined(const Readings& few, Collector& collector) {
 
 }  // namespace
 
-const std::vector<Pose>& Seed::poses() {
+const std::vector<Pose>& MinimalSample::poses() {
   if (poses_) return *poses_;
   poses_.emplace();
-  const Sighting& first = *readings_.front()->sighting;
+  const Measurement& first = *correspondences_.front()->measurement;
   const Pose& T_world_cam = *first.view->T_world_cam;
   if (const SeenPose* seen = first.pose()) {
     poses_->push_back(T_world_cam * seen->T_cam_feature *
-                      readings_.front()->T_object_feature.inverse());
+                      correspondences_.front()->T_object_feature.inverse());
     return *poses_;
   }
   std::vector<Eigen::Vector3d> points;
   std::vector<Eigen::Vector2d> pixels;
-  for (const Reading* reading : readings_) {
-    const auto& seen = reading->sighting->points()->pixels;
-    points.insert(points.end(), reading->points_m.begin(), reading->points_m.end());
+  for (const Correspondence* correspondence : correspondences_) {
+    const auto& seen = correspondence->measurement->points()->pixels;
+    points.insert(points.end(), correspondence->points_m.begin(), correspondence->points_m.end());
     pixels.insert(pixels.end(), seen.begin(), seen.end());
   }
-  for (const PoseGuess& guess : guess_poses(first.view->lens, points, pixels)) {
+  for (const PoseGuess& guess : solve_pnp(first.view->lens, points, pixels)) {
     poses_->push_back(T_world_cam * guess.T_cam_body);
   }
   return *poses_;
 }
 
-std::vector<SeedGroup> find_seeds(const std::vector<Reading>& readings) {
+std::vector<SampleGroup> find_minimal_samples(const std::vector<Correspondence>& correspondences) {
   Collector collector;
   std::map<std::pair<std::size_t, std::string>, Readings> few;
-  for (const Reading& reading : readings) {
-    if (enough_for_a_pose(reading)) {
-      collector.add({&reading});
+  for (const Correspondence& correspondence : correspondences) {
+    if (enough_for_a_pose(correspondence)) {
+      collector.add({&correspondence});
     } else {
-      few[{reading.sighting->id.view, reading.type().name}].push_back(&reading);
+      few[{correspondence.measurement->id.view, correspondence.type().name}].push_back(
+          &correspondence);
     }
   }
   for (const auto& [place, of_one_view] : few) add_joined(of_one_view, collector);
   return collector.sorted();
 }
 
-}  // namespace vantage::detail
+}  // namespace vantage::reconstruction::detail

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace vantage::detail {
+namespace vantage::reconstruction::detail {
 namespace {
 
 constexpr int kHalvings = 40;
@@ -35,4 +35,4 @@ double model_error_px(std::span<const PointResidual> residuals, double degrees_o
   return high;
 }
 
-}  // namespace vantage::detail
+}  // namespace vantage::reconstruction::detail

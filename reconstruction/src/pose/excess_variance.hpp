@@ -2,7 +2,7 @@
 
 #include <span>
 
-namespace vantage::detail {
+namespace vantage::reconstruction::detail {
 
 /// How far a point's pixel is from where a pose has it, and the noise of its coordinates.
 struct PointResidual {
@@ -21,4 +21,4 @@ double unlikely_ratio(double degrees_of_freedom);
 /// are worth: they share the rest of the error.
 double model_error_px(std::span<const PointResidual> residuals, double degrees_of_freedom);
 
-}  // namespace vantage::detail
+}  // namespace vantage::reconstruction::detail

@@ -4,7 +4,7 @@
 
 #include "vantage/raycore/error.hpp"
 
-namespace vantage::detail {
+namespace vantage::reconstruction::detail {
 namespace {
 
 constexpr double kNearest = 1e-3;  // metres before the camera
@@ -65,4 +65,4 @@ Eigen::Vector2d WideLens::project(const Eigen::Vector3d& p_cam,
   return xy.cwiseProduct(focal) + centre;
 }
 
-}  // namespace vantage::detail
+}  // namespace vantage::reconstruction::detail

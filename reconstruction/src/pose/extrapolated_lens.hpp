@@ -4,7 +4,7 @@
 
 #include "vantage/raycore/lens.hpp"
 
-namespace vantage::detail {
+namespace vantage::reconstruction::detail {
 
 /// A lens that has an image, finite and continuous, for every point: a search for a pose passes
 /// through poses in which points lie beyond the image's border or behind the camera. Inside the
@@ -35,4 +35,4 @@ Eigen::Vector2d sight_of(const Lens& lens, const Eigen::Vector2d& pixel);
 /// Whether a point lies before the camera, with a millimetre to spare.
 bool is_before(const Eigen::Vector3d& p_cam);
 
-}  // namespace vantage::detail
+}  // namespace vantage::reconstruction::detail

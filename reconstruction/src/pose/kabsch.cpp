@@ -2,7 +2,7 @@
 
 #include <Eigen/SVD>
 
-namespace vantage::detail {
+namespace vantage::reconstruction::detail {
 namespace {
 
 constexpr double kCollinear = 1e-9;  // second singular value over the first, for collinear points
@@ -15,8 +15,8 @@ Eigen::Vector3d centroid(std::span<const Eigen::Vector3d> points) {
 
 }  // namespace
 
-std::optional<Pose> align_points(std::span<const Eigen::Vector3d> from,
-                                 std::span<const Eigen::Vector3d> to) {
+std::optional<Pose> kabsch(std::span<const Eigen::Vector3d> from,
+                           std::span<const Eigen::Vector3d> to) {
   if (from.size() < 3 || from.size() != to.size()) return std::nullopt;
   const Eigen::Vector3d c_from = centroid(from), c_to = centroid(to);
   Eigen::Matrix3d h = Eigen::Matrix3d::Zero();
@@ -33,4 +33,4 @@ std::optional<Pose> align_points(std::span<const Eigen::Vector3d> from,
   return Pose::from_rotation(rotation, c_to - rotation * c_from);
 }
 
-}  // namespace vantage::detail
+}  // namespace vantage::reconstruction::detail

@@ -4,7 +4,7 @@
 
 #include "pose/pose_manifold.hpp"
 
-namespace vantage::detail {
+namespace vantage::reconstruction::detail {
 namespace {
 
 /// exp(r) exp(v) = exp(v + m r) for small r. Barfoot, "State Estimation for Robotics", the inverse
@@ -72,4 +72,4 @@ bool PoseCost::Evaluate(double const* const* parameters, double* residuals,
   return true;
 }
 
-}  // namespace vantage::detail
+}  // namespace vantage::reconstruction::detail

@@ -5,7 +5,7 @@
 #include "pose/extrapolated_lens.hpp"
 #include "pose/pose_fit.hpp"
 
-namespace vantage::detail {
+namespace vantage::reconstruction::detail {
 
 /// The residuals of all points of a term, divided by sigma: one block, as Ceres' share of the time
 /// grows with the number of blocks. Never fails. Refers to the term.
@@ -32,4 +32,4 @@ class PoseCost final : public ceres::CostFunction {
   const PoseTerm* term_;
 };
 
-}  // namespace vantage::detail
+}  // namespace vantage::reconstruction::detail

@@ -15,7 +15,7 @@
 #include "pose/pose_costs.hpp"
 #include "pose/pose_manifold.hpp"
 
-namespace vantage::detail {
+namespace vantage::reconstruction::detail {
 namespace {
 
 bool is_sound(const PointTerm& term) {
@@ -223,4 +223,4 @@ Matrix6d covariance_of(const Matrix6d& information) {
   return vectors * variances.asDiagonal() * vectors.transpose();
 }
 
-}  // namespace vantage::detail
+}  // namespace vantage::reconstruction::detail

@@ -9,7 +9,7 @@
 #include "vantage/raycore/pose.hpp"
 #include "vantage/reconstruction/observation.hpp"
 
-namespace vantage::detail {
+namespace vantage::reconstruction::detail {
 
 /// Points of a body whose pose `T_ref_body` is looked for, as one camera sees them:
 /// pixel ≈ lens.project(T_cam_ref * T_ref_body * point). For an object the reference is the world;
@@ -62,4 +62,4 @@ Eigen::Matrix<double, Eigen::Dynamic, 6> camera_jacobian(const PointTerm& term,
 /// large variances: 1 m² and (π rad)².
 Matrix6d covariance_of(const Matrix6d& information);
 
-}  // namespace vantage::detail
+}  // namespace vantage::reconstruction::detail

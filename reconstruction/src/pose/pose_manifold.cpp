@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace vantage::detail {
+namespace vantage::reconstruction::detail {
 namespace {
 
 using ConstVector3 = Eigen::Map<const Eigen::Vector3d>;
@@ -79,4 +79,4 @@ bool PoseManifold::MinusJacobian(const double* x, double* jacobian) const {
   return true;
 }
 
-}  // namespace vantage::detail
+}  // namespace vantage::reconstruction::detail

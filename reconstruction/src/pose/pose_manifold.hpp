@@ -8,7 +8,7 @@
 #include "pose/rigid_motion.hpp"
 #include "vantage/raycore/pose.hpp"
 
-namespace vantage::detail {
+namespace vantage::reconstruction::detail {
 
 /// A pose as Ceres has it: translation, then the unit quaternion as Eigen stores it (x, y, z, w).
 using PoseParameters = std::array<double, 7>;
@@ -36,4 +36,4 @@ class PoseManifold final : public ceres::Manifold {
 /// The derivatives of a rotation vector r, for which q changes to exp(r) q, by q.
 Eigen::Matrix<double, 3, 4> step_by_quaternion(const Eigen::Quaterniond& q);
 
-}  // namespace vantage::detail
+}  // namespace vantage::reconstruction::detail

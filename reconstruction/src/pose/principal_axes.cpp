@@ -2,7 +2,7 @@
 
 #include <Eigen/Eigenvalues>
 
-namespace vantage::detail {
+namespace vantage::reconstruction::detail {
 
 PrincipalAxes principal_axes(std::span<const Eigen::Vector3d> points) {
   const double share = 1 / double(points.size());
@@ -18,4 +18,4 @@ PrincipalAxes principal_axes(std::span<const Eigen::Vector3d> points) {
   return {centre, axes, solver.eigenvalues().reverse().cwiseMax(0).cwiseSqrt()};
 }
 
-}  // namespace vantage::detail
+}  // namespace vantage::reconstruction::detail

@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <span>
 
-namespace vantage::detail {
+namespace vantage::reconstruction::detail {
 
 /// How points spread around their centre: orthogonal axes, a right-handed frame, the direction of
 /// the greatest extent first.
@@ -17,4 +17,4 @@ struct PrincipalAxes {
 /// Of at least one point, all finite. Thread-safe.
 PrincipalAxes principal_axes(std::span<const Eigen::Vector3d> points);
 
-}  // namespace vantage::detail
+}  // namespace vantage::reconstruction::detail

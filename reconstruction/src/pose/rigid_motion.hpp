@@ -4,7 +4,7 @@
 
 #include "vantage/raycore/pose.hpp"
 
-namespace vantage::detail {
+namespace vantage::reconstruction::detail {
 
 /// cross_matrix(a) * b is a × b.
 inline Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& v) {
@@ -21,4 +21,4 @@ inline Matrix6d carried_along(const Eigen::Vector3d& arm) {
   return by_pose;
 }
 
-}  // namespace vantage::detail
+}  // namespace vantage::reconstruction::detail

@@ -9,7 +9,7 @@
 #include "pose/principal_axes.hpp"
 #include "vantage/raycore/error.hpp"
 
-namespace vantage::detail {
+namespace vantage::reconstruction::detail {
 namespace {
 
 constexpr double kFlat = 1e-6;  // of the extent
@@ -95,8 +95,8 @@ bool are_sound(const PointTerm& term) {
 
 }  // namespace
 
-std::vector<PoseGuess> guess_poses(const Lens& lens, std::span<const Eigen::Vector3d> points_m,
-                                   std::span<const Eigen::Vector2d> pixels) {
+std::vector<PoseGuess> solve_pnp(const Lens& lens, std::span<const Eigen::Vector3d> points_m,
+                                 std::span<const Eigen::Vector2d> pixels) {
   const PointTerm term{
       &lens, {}, {points_m.begin(), points_m.end()}, {pixels.begin(), pixels.end()}, 1};
   if (!are_sound(term)) return {};
@@ -120,4 +120,4 @@ std::vector<PoseGuess> guess_poses(const Lens& lens, std::span<const Eigen::Vect
   return guesses;
 }
 
-}  // namespace vantage::detail
+}  // namespace vantage::reconstruction::detail

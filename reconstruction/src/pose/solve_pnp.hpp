@@ -7,7 +7,7 @@
 #include "vantage/raycore/lens.hpp"
 #include "vantage/raycore/pose.hpp"
 
-namespace vantage::detail {
+namespace vantage::reconstruction::detail {
 
 /// Poses T_cam_body in which a camera may see known points at these pixels; the best first, none
 /// for points that are too few, collinear or not finite. Coplanar points (a marker's corners) have
@@ -17,7 +17,7 @@ struct PoseGuess {
   Pose T_cam_body;
   double rms_px = 0;
 };
-std::vector<PoseGuess> guess_poses(const Lens& lens, std::span<const Eigen::Vector3d> points_m,
-                                   std::span<const Eigen::Vector2d> pixels);
+std::vector<PoseGuess> solve_pnp(const Lens& lens, std::span<const Eigen::Vector3d> points_m,
+                                 std::span<const Eigen::Vector2d> pixels);
 
-}  // namespace vantage::detail
+}  // namespace vantage::reconstruction::detail

@@ -6,7 +6,7 @@
 
 #include "pose/rigid_motion.hpp"
 
-namespace vantage::detail {
+namespace vantage::reconstruction::detail {
 namespace {
 
 constexpr double kSameM = 5e-4, kSameRad = 5e-3;
@@ -55,4 +55,4 @@ bool equivalent(const ObjectType& type, const Pose& a, const Pose& b) {
   });
 }
 
-}  // namespace vantage::detail
+}  // namespace vantage::reconstruction::detail

@@ -2,7 +2,7 @@
 
 #include "vantage/reconstruction/object_type.hpp"
 
-namespace vantage::detail {
+namespace vantage::reconstruction::detail {
 
 /// `pose` turned around the type's axes of symmetry so that its rotation is as close to that of
 /// `target` as it can be. Both T_x_object. Types without such axes: `pose` itself.
@@ -19,4 +19,4 @@ Eigen::Matrix<double, 6, 1> turn_direction(const ContinuousSymmetry& symmetry,
 /// milliradians.
 bool equivalent(const ObjectType& type, const Pose& a, const Pose& b);
 
-}  // namespace vantage::detail
+}  // namespace vantage::reconstruction::detail

@@ -7,7 +7,7 @@
 
 #include "hypothesis/linear_system.hpp"
 
-namespace vantage::detail {
+namespace vantage::reconstruction::detail {
 namespace {
 
 constexpr double kWorthSpreading = 0.5, kFarthest = 2;  // cells
@@ -73,4 +73,4 @@ double squared_distance(const Pose& a, const Matrix6d& covariance_a, const Pose&
   return step.dot(both.ldlt().solve(step));
 }
 
-}  // namespace vantage::detail
+}  // namespace vantage::reconstruction::detail

@@ -6,7 +6,7 @@
 #include "vantage/reconstruction/object_type.hpp"
 #include "voting/vote_table.hpp"
 
-namespace vantage::detail {
+namespace vantage::reconstruction::detail {
 
 /// Where a vote for this pose falls. Of a type with an axis of symmetry, only where the axis is and
 /// where it points counts; of one with several, only their crossing.
@@ -22,4 +22,4 @@ std::vector<Pose> spread(const Pose& pose, const Matrix6d& covariance, const Vot
 double squared_distance(const Pose& a, const Matrix6d& covariance_a, const Pose& b,
                         const Matrix6d& covariance_b);
 
-}  // namespace vantage::detail
+}  // namespace vantage::reconstruction::detail

@@ -6,7 +6,7 @@
 
 #include "pose/symmetry.hpp"
 
-namespace vantage::detail {
+namespace vantage::reconstruction::detail {
 namespace {
 
 constexpr double kNear = 22.5;       // 99.9 % of chi-square with six degrees of freedom
@@ -19,40 +19,47 @@ Matrix6d floor_of() {
   return floor;
 }
 
-/// Whether a cluster may have the reading: one of each sighting, one of each feature in a view.
-bool has_room_for(const std::vector<const Reading*>& readings, const Reading& reading) {
-  return std::none_of(readings.begin(), readings.end(), [&](const Reading* other) {
-    return other->number == reading.number ||
-           (other->feature == reading.feature && other->sighting->view == reading.sighting->view);
-  });
+/// Whether a cluster may have the correspondence: one of each measurement, one of each feature in a
+/// view.
+bool has_room_for(const std::vector<const Correspondence*>& correspondences,
+                  const Correspondence& correspondence) {
+  return std::none_of(correspondences.begin(), correspondences.end(),
+                      [&](const Correspondence* other) {
+                        return other->number == correspondence.number ||
+                               (other->feature == correspondence.feature &&
+                                other->measurement->view == correspondence.measurement->view);
+                      });
 }
 
-bool has(const std::vector<const Reading*>& readings, const Reading* reading) {
-  return std::find(readings.begin(), readings.end(), reading) != readings.end();
+bool has(const std::vector<const Correspondence*>& correspondences,
+         const Correspondence* correspondence) {
+  return std::find(correspondences.begin(), correspondences.end(), correspondence) !=
+         correspondences.end();
 }
 
-/// Adds a vote's readings, if it contradicts none that is there.
-bool take_in(const Vote& vote, std::vector<const Reading*>& readings) {
-  const std::size_t before = readings.size();
-  for (const Reading* reading : vote.readings) {
-    if (has(readings, reading)) continue;
-    if (!has_room_for(readings, *reading)) {
-      readings.resize(before);
+/// Adds a vote's correspondences, if it contradicts none that is there.
+bool take_in(const Vote& vote, std::vector<const Correspondence*>& correspondences) {
+  const std::size_t before = correspondences.size();
+  for (const Correspondence* correspondence : vote.correspondences) {
+    if (has(correspondences, correspondence)) continue;
+    if (!has_room_for(correspondences, *correspondence)) {
+      correspondences.resize(before);
       return false;
     }
-    readings.push_back(reading);
+    correspondences.push_back(correspondence);
   }
-  return readings.size() > before;
+  return correspondences.size() > before;
 }
 
 }  // namespace
 
-Poll::Poll(std::vector<Vote> votes, std::size_t sightings, const VoteGrid& grid)
+HoughAccumulator::HoughAccumulator(std::vector<Vote> votes, std::size_t measurements,
+                                   const VoteGrid& grid)
     : votes_(std::move(votes)),
       grid_(grid),
       table_(grid),
       open_(votes_.size(), true),
-      of_sighting_(sightings) {
+      of_measurement_(measurements) {
   for (std::size_t i = 0; i < votes_.size(); ++i) {
     const Vote& vote = votes_[i];
     rank_.try_emplace(vote.type(), std::uint32_t(rank_.size()));
@@ -60,13 +67,14 @@ Poll::Poll(std::vector<Vote> votes, std::size_t sightings, const VoteGrid& grid)
       open_[i] = false;
       continue;
     }
-    for (const Reading* reading : vote.readings) of_sighting_[reading->number].push_back(i);
+    for (const Correspondence* correspondence : vote.correspondences)
+      of_measurement_[correspondence->number].push_back(i);
     of_type_[vote.type()].push_back(i);
     enter(vote, 1);
   }
 }
 
-void Poll::enter(const Vote& vote, std::int64_t sign) {
+void HoughAccumulator::enter(const Vote& vote, std::int64_t sign) {
   const std::vector<Pose> poses = spread(vote.T_world_object, vote.covariance, grid_);
   const std::int64_t weight = vote.weight / std::int64_t(poses.size());
   for (const Pose& pose : poses) {
@@ -75,18 +83,18 @@ void Poll::enter(const Vote& vote, std::int64_t sign) {
   }
 }
 
-double Poll::height(std::size_t i) const {
+double HoughAccumulator::height(std::size_t i) const {
   const Vote& vote = votes_[i];
   return table_.height(place_of(*vote.type(), rank_.at(vote.type()), vote.T_world_object));
 }
 
-void Poll::withdraw(std::size_t i) {
+void HoughAccumulator::withdraw(std::size_t i) {
   if (!open_[i]) return;
   open_[i] = false;
   enter(votes_[i], -1);
 }
 
-std::vector<std::pair<double, std::size_t>> Poll::near(std::size_t i) const {
+std::vector<std::pair<double, std::size_t>> HoughAccumulator::near(std::size_t i) const {
   const Vote& vote = votes_[i];
   const Matrix6d covariance = vote.covariance + floor_of();
   std::vector<std::pair<double, std::size_t>> found;
@@ -108,7 +116,7 @@ std::vector<std::pair<double, std::size_t>> Poll::near(std::size_t i) const {
   return found;
 }
 
-Pose Poll::mean(const std::vector<std::size_t>& members, const Pose& around) const {
+Pose HoughAccumulator::mean(const std::vector<std::size_t>& members, const Pose& around) const {
   Matrix6d information = Matrix6d::Zero();
   Vector6d sum = Vector6d::Zero();
   for (const std::size_t i : members) {
@@ -124,21 +132,22 @@ Pose Poll::mean(const std::vector<std::size_t>& members, const Pose& around) con
   return moved(around, information.ldlt().solve(sum));
 }
 
-Cluster Poll::cluster_around(std::size_t i) const {
+Cluster HoughAccumulator::cluster_around(std::size_t i) const {
   Cluster cluster;
   std::vector<std::size_t> members;
   for (const auto& [distance, other] : near(i)) {
-    if (take_in(votes_[other], cluster.readings)) members.push_back(other);
+    if (take_in(votes_[other], cluster.correspondences)) members.push_back(other);
   }
   cluster.T_world_object = mean(members, votes_[i].T_world_object);
   return cluster;
 }
 
-bool Poll::may_be(std::size_t i, const ObjectType& type, const Pose& T_world_object) const {
+bool HoughAccumulator::may_be(std::size_t i, const ObjectType& type,
+                              const Pose& T_world_object) const {
   const Vote& vote = votes_[i];
   if (vote.type() != &type) return false;
   const Pose pose = turned_towards(type, T_world_object, vote.T_world_object);
   return squared_distance(vote.T_world_object, vote.covariance, pose, floor_of()) <= kNear;
 }
 
-}  // namespace vantage::detail
+}  // namespace vantage::reconstruction::detail

@@ -8,24 +8,24 @@
 #include "voting/covariance_samples.hpp"
 #include "voting/votes.hpp"
 
-namespace vantage::detail {
+namespace vantage::reconstruction::detail {
 
 /// Votes that lie together: what they say, and where the middle of it is.
 struct Cluster {
-  std::vector<const Reading*> readings;  ///< one for each sighting
-  Pose T_world_object;                   ///< the mean, weighted by what each vote is sure of
+  std::vector<const Correspondence*> correspondences;  ///< one for each measurement
+  Pose T_world_object;  ///< the mean, weighted by what each vote is sure of
 };
 
 /// The table with its votes in it, which can be withdrawn. Not thread-safe.
-class Poll {
+class HoughAccumulator {
  public:
-  Poll(std::vector<Vote> votes, std::size_t sightings, const VoteGrid& grid);
+  HoughAccumulator(std::vector<Vote> votes, std::size_t measurements, const VoteGrid& grid);
 
   std::size_t size() const { return votes_.size(); }
   const Vote& vote(std::size_t i) const { return votes_[i]; }
   bool open(std::size_t i) const { return open_[i]; }
-  const std::vector<std::size_t>& votes_of(std::size_t sighting) const {
-    return of_sighting_[sighting];
+  const std::vector<std::size_t>& votes_of(std::size_t measurement) const {
+    return of_measurement_[measurement];
   }
 
   /// How many votes there are at and around this one's pose.
@@ -34,7 +34,7 @@ class Poll {
   void withdraw(std::size_t i);
 
   /// Votes for the same type that are so near that they may be for the same pose, the nearest of
-  /// each sighting; this one's own are in it.
+  /// each measurement; this one's own are in it.
   Cluster cluster_around(std::size_t i) const;
 
   /// Whether the vote may be for this object; the pose is taken as certain.
@@ -49,9 +49,9 @@ class Poll {
   VoteGrid grid_;
   VoteTable table_;
   std::vector<bool> open_;
-  std::vector<std::vector<std::size_t>> of_sighting_;
+  std::vector<std::vector<std::size_t>> of_measurement_;
   std::map<const ObjectType*, std::vector<std::size_t>> of_type_;  // never walked
   std::map<const ObjectType*, std::uint32_t> rank_;
 };
 
-}  // namespace vantage::detail
+}  // namespace vantage::reconstruction::detail

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace vantage::detail {
+namespace vantage::reconstruction::detail {
 namespace {
 
 constexpr double kSameMarker = 0.85;  // sizes: beyond it, there is room for another one
@@ -28,42 +28,46 @@ bool near_any(const std::vector<Eigen::Vector3d>& points, const Eigen::Vector3d&
 
 }  // namespace
 
-Witnesses::Witnesses(const Ballot& ballot, const std::vector<Vote>& votes) : ballot_(&ballot) {
-  std::vector<bool> placed(ballot.sightings.size(), false);
+LabelEvidence::LabelEvidence(const CandidateCorrespondences& candidates,
+                             const std::vector<Vote>& votes)
+    : candidates_(&candidates) {
+  std::vector<bool> placed(candidates.measurements.size(), false);
   for (const Vote& vote : votes) {
-    const Reading& reading = *vote.readings.front();
-    const Marker* marker = marker_of(*reading.feature);
-    if (!marker || placed[reading.number]) continue;
-    placed[reading.number] = true;
+    const Correspondence& correspondence = *vote.correspondences.front();
+    const Marker* marker = marker_of(*correspondence.feature);
+    if (!marker || placed[correspondence.number]) continue;
+    placed[correspondence.number] = true;
     const Eigen::Vector3d& p = marker->T_object_marker.translation();
-    witnesses_.push_back({reading.number, vote.T_world_object * p, sigma_of(vote, p)});
+    label_evidence_.push_back({correspondence.number, vote.T_world_object * p, sigma_of(vote, p)});
   }
-  for (std::size_t i = 0; i < ballot.sightings.size(); ++i) {
-    const Sighting& sighting = ballot.sightings[i];
-    for (const TypeFeature* feature : sighting.features) {
+  for (std::size_t i = 0; i < candidates.measurements.size(); ++i) {
+    const Measurement& measurement = candidates.measurements[i];
+    for (const TypeFeature* feature : measurement.features) {
       auto& body = bodies_[feature->type.get()];
       if (!body) body = std::make_unique<TypeBody>(*feature->type);
     }
-    if (const SeenLabel* label = sighting.label()) {
-      witnesses_.push_back({i, *sighting.view->T_world_cam * label->p_cam_m, label->sigma_m});
+    if (const SeenLabel* label = measurement.label()) {
+      label_evidence_.push_back(
+          {i, *measurement.view->T_world_cam * label->p_cam_m, label->sigma_m});
     }
   }
   sort();
 }
 
-void Witnesses::sort() {
-  std::stable_sort(witnesses_.begin(), witnesses_.end(), [](const Witness& a, const Witness& b) {
-    return a.p_world.x() < b.p_world.x();
-  });
+void LabelEvidence::sort() {
+  std::stable_sort(
+      label_evidence_.begin(), label_evidence_.end(),
+      [](const SeenFeature& a, const SeenFeature& b) { return a.p_world.x() < b.p_world.x(); });
 }
 
-void Witnesses::place(const std::vector<const Reading*>& readings, const Pose& T_world_object) {
-  for (Witness& witness : witnesses_) {
-    const auto reading = std::find_if(readings.begin(), readings.end(), [&](const Reading* other) {
-      return other->number == witness.number;
-    });
-    if (reading == readings.end()) continue;
-    const Marker* marker = marker_of(*(*reading)->feature);
+void LabelEvidence::place(const std::vector<const Correspondence*>& correspondences,
+                          const Pose& T_world_object) {
+  for (SeenFeature& witness : label_evidence_) {
+    const auto correspondence =
+        std::find_if(correspondences.begin(), correspondences.end(),
+                     [&](const Correspondence* other) { return other->number == witness.number; });
+    if (correspondence == correspondences.end()) continue;
+    const Marker* marker = marker_of(*(*correspondence)->feature);
     if (!marker) continue;
     witness.p_world = T_world_object * marker->T_object_marker.translation();
     witness.sigma_m = 0;
@@ -71,12 +75,12 @@ void Witnesses::place(const std::vector<const Reading*>& readings, const Pose& T
   sort();
 }
 
-const TypeFeature* Witnesses::carried(const Witness& witness, const ObjectType& type,
-                                      const Pose& T_world_object, double tolerance_m) const {
-  const Sighting& sighting = ballot_->sightings[witness.number];
+const TypeFeature* LabelEvidence::carried(const SeenFeature& witness, const ObjectType& type,
+                                          const Pose& T_world_object, double tolerance_m) const {
+  const Measurement& measurement = candidates_->measurements[witness.number];
   const Pose T_object_world = T_world_object.inverse();
   const Eigen::Vector3d p = T_object_world * witness.p_world;
-  for (const TypeFeature* feature : sighting.features) {
+  for (const TypeFeature* feature : measurement.features) {
     if (feature->type.get() != &type) continue;
     if (const Marker* marker = marker_of(*feature)) {
       const double distance = (marker->T_object_marker.translation() - p).norm();
@@ -90,39 +94,39 @@ const TypeFeature* Witnesses::carried(const Witness& witness, const ObjectType& 
     if (near_any(label->points_m, p, label->radius_m + tolerance_m)) return feature;
     if (!label->points_m.empty()) continue;
     const auto depth =
-        body(type).depth_behind(T_object_world * sighting.view->T_world_cam->translation(), p);
+        body(type).depth_behind(T_object_world * measurement.view->T_world_cam->translation(), p);
     if (depth && std::abs(*depth) <= tolerance_m) return feature;
   }
   return nullptr;
 }
 
-Verdict Witnesses::verdict(const ObjectType& type, const Pose& T_world_object, double slack_m,
-                           const std::vector<bool>& free) const {
+LabelVotes LabelEvidence::label_votes(const ObjectType& type, const Pose& T_world_object,
+                                      double slack_m, const std::vector<bool>& free) const {
   const TypeBody& shape = body(type);
   const Pose T_object_world = T_world_object.inverse();
   const Eigen::Vector3d centre = T_world_object * shape.centre();
   const double reach = shape.radius_m() + slack_m;
-  const auto from =
-      std::lower_bound(witnesses_.begin(), witnesses_.end(), centre.x() - reach,
-                       [](const Witness& witness, double x) { return witness.p_world.x() < x; });
-  Verdict verdict;
-  for (auto witness = from; witness != witnesses_.end(); ++witness) {
+  const auto from = std::lower_bound(
+      label_evidence_.begin(), label_evidence_.end(), centre.x() - reach,
+      [](const SeenFeature& witness, double x) { return witness.p_world.x() < x; });
+  LabelVotes label_votes;
+  for (auto witness = from; witness != label_evidence_.end(); ++witness) {
     if (witness->p_world.x() > centre.x() + reach) break;
     if ((witness->p_world - centre).norm() > reach) continue;
     const double tolerance = slack_m + witness->sigma_m;
-    const Sighting& sighting = ballot_->sightings[witness->number];
+    const Measurement& measurement = candidates_->measurements[witness->number];
     if (const TypeFeature* feature = carried(*witness, type, T_world_object, tolerance)) {
-      if (sighting.label() && free[witness->number]) {
-        verdict.labels.emplace_back(witness->number, feature->index);
+      if (measurement.label() && free[witness->number]) {
+        label_votes.labels.emplace_back(witness->number, feature->index);
       }
       continue;
     }
-    const Eigen::Vector3d eye = T_object_world * sighting.view->T_world_cam->translation();
+    const Eigen::Vector3d eye = T_object_world * measurement.view->T_world_cam->translation();
     const auto depth = shape.depth_behind(eye, T_object_world * witness->p_world);
-    if (depth && *depth <= tolerance) ++verdict.against;
+    if (depth && *depth <= tolerance) ++label_votes.against;
   }
-  std::sort(verdict.labels.begin(), verdict.labels.end());
-  return verdict;
+  std::sort(label_votes.labels.begin(), label_votes.labels.end());
+  return label_votes;
 }
 
-}  // namespace vantage::detail
+}  // namespace vantage::reconstruction::detail

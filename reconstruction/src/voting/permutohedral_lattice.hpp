@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstdint>
 
-namespace vantage::detail {
+namespace vantage::reconstruction::detail {
 
 /// A corner of the simplex around a point: a lattice point, and how much of the point is its.
 template <int kDim>
@@ -63,4 +63,4 @@ std::array<LatticeCorner<kDim>, kDim + 1> lattice_corners(
   return corners;
 }
 
-}  // namespace vantage::detail
+}  // namespace vantage::reconstruction::detail

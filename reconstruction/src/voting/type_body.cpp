@@ -2,9 +2,9 @@
 
 #include <limits>
 
-#include "vantage/raycore/scene_builder.hpp"
+#include "vantage/raycore/advanced/scene_builder.hpp"
 
-namespace vantage::detail {
+namespace vantage::reconstruction::detail {
 
 TypeBody::TypeBody(const ObjectType& type) : type_(&type) {
   if (type.mesh->empty()) return;
@@ -36,4 +36,4 @@ std::optional<double> TypeBody::depth_behind(const Eigen::Vector3d& from,
   return start + double(hit->t) - distance;
 }
 
-}  // namespace vantage::detail
+}  // namespace vantage::reconstruction::detail

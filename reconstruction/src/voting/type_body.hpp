@@ -7,10 +7,10 @@
 #include <optional>
 #include <string>
 
-#include "vantage/raycore/scene.hpp"
+#include "vantage/raycore/advanced/scene.hpp"
 #include "vantage/reconstruction/object_type.hpp"
 
-namespace vantage::detail {
+namespace vantage::reconstruction::detail {
 
 /// The body of a type, to be looked at from anywhere. Thread-safe.
 class TypeBody {
@@ -33,4 +33,4 @@ class TypeBody {
   mutable std::shared_ptr<const Scene> scene_;  // large meshes take a while: when it is needed
 };
 
-}  // namespace vantage::detail
+}  // namespace vantage::reconstruction::detail

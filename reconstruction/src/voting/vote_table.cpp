@@ -2,7 +2,7 @@
 
 #include <utility>
 
-namespace vantage::detail {
+namespace vantage::reconstruction::detail {
 namespace {
 
 std::uint64_t mixed(std::uint64_t h) {  // the finaliser of MurmurHash3
@@ -67,7 +67,7 @@ std::size_t VoteTable::slot_of(const Key& key) const {
   return at;
 }
 
-void VoteTable::grow() {
+void VoteTable::expand_consensus() {
   std::vector<Slot> old = std::exchange(slots_, std::vector<Slot>(2 * slots_.size()));
   for (const Slot& slot : old) {
     if (slot.used) slots_[slot_of(slot.key)] = slot;
@@ -83,7 +83,7 @@ void VoteTable::add(const VotePlace& place, std::int64_t weight) {
       ++used_;
     }
     slot.votes += weight < 0 ? -share.weight : share.weight;
-    if (4 * used_ > 3 * slots_.size()) grow();
+    if (4 * used_ > 3 * slots_.size()) expand_consensus();
   }
 }
 
@@ -97,4 +97,4 @@ double VoteTable::height(const VotePlace& place) const {
   return common / own;
 }
 
-}  // namespace vantage::detail
+}  // namespace vantage::reconstruction::detail

@@ -8,7 +8,7 @@
 
 #include "voting/permutohedral_lattice.hpp"
 
-namespace vantage::detail {
+namespace vantage::reconstruction::detail {
 
 /// Votes are counted in integers, so that their order does not matter.
 inline constexpr std::int64_t kOneVote = std::int64_t(1) << 20;
@@ -68,11 +68,11 @@ class VoteTable {
 
   std::array<Share, kCellsPerVote> shares(const VotePlace& place, std::int64_t weight) const;
   std::size_t slot_of(const Key& key) const;
-  void grow();
+  void expand_consensus();
 
   VoteGrid grid_;
   std::vector<Slot> slots_;  // open addressing; a power of two
   std::size_t used_ = 0;
 };
 
-}  // namespace vantage::detail
+}  // namespace vantage::reconstruction::detail

@@ -9,7 +9,7 @@ namespace {
 
 PlanRequest parsed(const std::string& options) {
   CLI::App app;
-  MethodArguments arguments;
+  ViewOptions arguments;
   arguments.add_to(app);
   app.parse(options);
   PlanRequest request{.work_area = Box({0, 0, 0}, {1, 1, 1}),

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "vantage/raycore/scene_builder.hpp"
+#include "vantage/raycore/advanced/scene_builder.hpp"
 #include "vantage/raycore/solids.hpp"
 
 namespace vantage::test {

@@ -64,9 +64,9 @@ TEST_CASE("the example's values arrive") {
   REQUIRE(cell.random_objects);
   CHECK(cell.random_objects->count == 4);
   CHECK(cell.voxel_size_m == 0.01);
-  VolumeOptions written_out;  // the example has the defaults
-  written_out.anti_alias = false;
-  CHECK(cell.volume == written_out);
+  VolumeOptions resolve_defaults;  // the example has the defaults
+  resolve_defaults.anti_alias = false;
+  CHECK(cell.volume == resolve_defaults);
 }
 
 TEST_CASE("a work area is enough for a workcell") {

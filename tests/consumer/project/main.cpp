@@ -3,8 +3,8 @@
 #include <cstdio>
 #include <exception>
 #include <vantage/planner/plan.hpp>
+#include <vantage/raycore/advanced/scene_builder.hpp>
 #include <vantage/raycore/error.hpp>
-#include <vantage/raycore/scene_builder.hpp>
 #include <vantage/reconstruction/bop_scene.hpp>
 #include <vantage/reconstruction/reconstruct.hpp>
 

@@ -56,7 +56,7 @@ TEST_CASE("means over the pairs, by method") {
   CHECK(voxel->real_gain_m3 == 2.25);
   CHECK(voxel->predicted_gain_m3 == 4.5);
   CHECK(mesh->share_of_best == 0.25);
-  CHECK(mesh->least_share_of_best == 0);
+  CHECK(mesh->min_share_of_best == 0);
   CHECK(mesh->times_mean == 0.5);
   CHECK(mesh->rank == 2.5);
   // A blind choice: 2 of 4, and 1/3 of 0.5.

@@ -1,8 +1,8 @@
 #include <doctest/doctest.h>
 
 #include "metrics/planning/shadow_filter_evaluation.hpp"
-#include "vantage/volume/carve.hpp"
-#include "vantage/volume/classify.hpp"
+#include "vantage/volume/advanced/carve.hpp"
+#include "vantage/volume/advanced/classify.hpp"
 
 namespace vantage {
 namespace {
@@ -27,7 +27,7 @@ std::shared_ptr<const StateGrid> shadow_behind(double x) {
   const PinholeCamera camera({200, 200, 100, 100, 99.5, 99.5},
                              Pose::looking_at({-0.5, 0.06, 0.06}, {0, 0.06, 0.06}));
   const float depth = float(0.5 + x);
-  const std::vector<DepthLattice> lattices{
+  const std::vector<VisibilityMesh> lattices{
       {camera, {0, 199}, {0, 199}, {depth, depth, depth, depth}}};
   return carve(lattices, kGeometry, {});
 }

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "metrics/cube_scene.hpp"
-#include "vantage/raycore/scene_builder.hpp"
+#include "vantage/raycore/advanced/scene_builder.hpp"
 
 namespace vantage {
 namespace {
@@ -48,7 +48,8 @@ struct MeasuredCubes {
 
 TEST_CASE("the truth has full marks") {
   const MeasuredCubes scene;
-  const auto scores = bop_scores(Judge(scene.truth), scene.shifted({0, 0, 0}), scene.images);
+  const auto scores =
+      bop_scores(ReconstructionEvaluator(scene.truth), scene.shifted({0, 0, 0}), scene.images);
   REQUIRE(scores);
   CHECK(scores->targets == 4);
   CHECK(scores->average_recall() == 1);
@@ -57,8 +58,8 @@ TEST_CASE("the truth has full marks") {
 TEST_CASE("a shift costs the thresholds that lie below it") {
   const MeasuredCubes scene;
   const double diameter = 0.05 * std::sqrt(3.0);
-  const auto scores =
-      bop_scores(Judge(scene.truth), scene.shifted({0, 0, 0.17 * diameter}), scene.images);
+  const auto scores = bop_scores(ReconstructionEvaluator(scene.truth),
+                                 scene.shifted({0, 0, 0.17 * diameter}), scene.images);
   REQUIRE(scores);
   CHECK(scores->ar_mssd == doctest::Approx(0.7));  // 0.2 and above
   CHECK(scores->ar_mspd < 1);
@@ -72,7 +73,8 @@ TEST_CASE("MSPD's thresholds are pixels of an image that is 640 wide") {
   scene.images[0].T_world_cam = Pose::looking_at({0, 0, 0.55}, {0, 0, 0});  // 0.5 m above them
   scene.images[0].depth = nullptr;
   // 1 cm sideways: 3 pixels on top, 2.73 at the bottom; thresholds are 1.25, 2.5, 3.75, … pixels.
-  const auto scores = bop_scores(Judge(scene.truth), scene.shifted({0.01, 0, 0}), scene.images);
+  const auto scores =
+      bop_scores(ReconstructionEvaluator(scene.truth), scene.shifted({0.01, 0, 0}), scene.images);
   REQUIRE(scores);
   CHECK(scores->ar_mspd == doctest::Approx(0.8));
   CHECK_FALSE(scores->ar_vsd);  // no depth
@@ -83,7 +85,7 @@ TEST_CASE("each estimate's errors are those of its object") {
   const MeasuredCubes scene;
   Reconstruction swapped = scene.shifted({0, 0, 0.002});
   std::swap(swapped.objects[0], swapped.objects[1]);
-  const auto errors = estimate_errors(Judge(scene.truth), swapped);
+  const auto errors = estimate_errors(ReconstructionEvaluator(scene.truth), swapped);
   REQUIRE(errors.size() == 2);
   CHECK(errors[0].truth == 1);
   CHECK(errors[1].truth == 0);
@@ -100,29 +102,30 @@ TEST_CASE("hidden objects are no targets, and finding them does neither good nor
   for (ScoredImage& image : scene.images) {  // a wall at 10 cm
     image.depth = std::make_shared<const DepthImage>(160, 120, std::vector<float>(160 * 120, 0.1f));
   }
-  CHECK_FALSE(bop_scores(Judge(scene.truth), scene.shifted({0, 0, 0}), scene.images));
+  CHECK_FALSE(
+      bop_scores(ReconstructionEvaluator(scene.truth), scene.shifted({0, 0, 0}), scene.images));
 }
 
 TEST_CASE("what is not found is missing from every recall") {
   const MeasuredCubes scene;
   Reconstruction one = scene.shifted({0, 0, 0});
   one.objects.pop_back();
-  const auto scores = bop_scores(Judge(scene.truth), one, scene.images);
+  const auto scores = bop_scores(ReconstructionEvaluator(scene.truth), one, scene.images);
   REQUIRE(scores);
   CHECK(scores->average_recall().value() == doctest::Approx(0.5));
-  const auto none = bop_scores(Judge(scene.truth), {}, scene.images);
+  const auto none = bop_scores(ReconstructionEvaluator(scene.truth), {}, scene.images);
   CHECK(none->average_recall() == 0);
-  CHECK(estimate_errors(Judge(scene.truth), {}).empty());
+  CHECK(estimate_errors(ReconstructionEvaluator(scene.truth), {}).empty());
 }
 
 TEST_CASE("scores are the same at any number of threads") {
   const MeasuredCubes scene;
-  const Judge judge(scene.truth);
+  const ReconstructionEvaluator evaluator(scene.truth);
   const Reconstruction off = scene.shifted({0.004, -0.003, 0.01});
   std::vector<BopScores> all;
   for (const int threads : {1, 3}) {
     tbb::task_arena arena(threads);
-    all.push_back(arena.execute([&] { return bop_scores(judge, off, scene.images).value(); }));
+    all.push_back(arena.execute([&] { return bop_scores(evaluator, off, scene.images).value(); }));
   }
   CHECK(all[0].ar_vsd == all[1].ar_vsd);
   CHECK(all[0].ar_mspd == all[1].ar_mspd);

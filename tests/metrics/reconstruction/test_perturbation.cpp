@@ -28,8 +28,8 @@ std::vector<CameraView> one_view() {
   return {view};
 }
 
-std::vector<CameraView> disturb(const Disturbance& disturbance, std::uint64_t trial = 0) {
-  return disturbed(one_view(), disturbance, trial, keys_of(50));
+std::vector<CameraView> disturb(const Perturbation& perturbation, std::uint64_t trial = 0) {
+  return disturbed(one_view(), perturbation, trial, keys_of(50));
 }
 
 }  // namespace
@@ -92,8 +92,8 @@ TEST_CASE("without another key of its type an observation keeps its own") {
 }
 
 TEST_CASE("disturbances that make no sense are refused") {
-  const auto refused = [](const Disturbance& disturbance, const char* where, const char* what) {
-    test::expect_bad_input(where, what, [&] { disturb(disturbance); });
+  const auto refused = [](const Perturbation& perturbation, const char* where, const char* what) {
+    test::expect_bad_input(where, what, [&] { disturb(perturbation); });
   };
   refused({.noise_px = -1}, "noise_px", "found -1");
   refused({.noise_px = std::nan("")}, "noise_px", "found nan");

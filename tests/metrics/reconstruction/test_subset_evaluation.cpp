@@ -45,9 +45,9 @@ EvaluatedMethod pretender(const TwoCubes& scene) {
 
 std::vector<SubsetRun> run(const TwoCubes& scene, const SubsetPlan& plan,
                            const StopToken& stop = {}) {
-  const Judge judge(scene.truth);
+  const ReconstructionEvaluator evaluator(scene.truth);
   const EvaluatedMethod method = pretender(scene);
-  return evaluate_subsets(scene.views, judge, std::span(&method, 1), plan, stop);
+  return evaluate_subsets(scene.views, evaluator, std::span(&method, 1), plan, stop);
 }
 
 }  // namespace
@@ -87,26 +87,26 @@ TEST_CASE("every subset in every trial, in order, with errors by the number of c
     CHECK(runs[i].subset == i / 2);
     CHECK(runs[i].trial == i % 2);
   }
-  const Verdict& second_alone = runs[2].verdicts[0];
+  const ReconstructionScore& second_alone = runs[2].scores[0];
   CHECK(second_alone.true_objects == 1);  // blue cannot be found
   CHECK(second_alone.found == 1);
   CHECK(second_alone.objects[0].translation_m == doctest::Approx(0.002));
-  CHECK(runs[13].verdicts[0].objects[1].translation_m < 1e-12);
+  CHECK(runs[13].scores[0].objects[1].translation_m < 1e-12);
 }
 
 TEST_CASE("what is lost cannot be found, and what is ignored is not seen by the method") {
   const TwoCubes scene;
-  const auto lost = run(scene, {.subsets = {{0, 1, 2}}, .disturbance = {.drop = 1}});
-  CHECK(lost[0].verdicts[0].true_objects == 2);  // the cameras saw them
-  CHECK(lost[0].verdicts[0].estimates == 0);
+  const auto lost = run(scene, {.subsets = {{0, 1, 2}}, .perturbation = {.drop = 1}});
+  CHECK(lost[0].scores[0].true_objects == 2);  // the cameras saw them
+  CHECK(lost[0].scores[0].estimates == 0);
   const auto ignored = run(scene, {.subsets = {{0, 1, 2}}, .ignored = {{"mark", "red"}}});
-  CHECK(ignored[0].verdicts[0].estimates == 1);
+  CHECK(ignored[0].scores[0].estimates == 1);
 }
 
-TEST_CASE("subsets have the same verdicts at any number of threads") {
+TEST_CASE("subsets have the same scores at any number of threads") {
   const TwoCubes scene;
   const SubsetPlan plan{.subsets = camera_subsets(3, 1, 3),
-                        .disturbance = {.drop = 0.4, .wrong_ids = 0.3},
+                        .perturbation = {.drop = 0.4, .wrong_ids = 0.3},
                         .trials = 20,
                         .keys = {{"mark", "red"}, {"mark", "blue"}}};
   std::vector<std::vector<SubsetRun>> all;
@@ -118,9 +118,9 @@ TEST_CASE("subsets have the same verdicts at any number of threads") {
   std::size_t found = 0;
   for (std::size_t i = 0; i < 140; ++i) {
     CHECK(all[0][i].subset == all[1][i].subset);
-    CHECK(all[0][i].verdicts[0].found == all[1][i].verdicts[0].found);
-    CHECK(all[0][i].verdicts[0].estimates == all[1][i].verdicts[0].estimates);
-    found += all[0][i].verdicts[0].found;
+    CHECK(all[0][i].scores[0].found == all[1][i].scores[0].found);
+    CHECK(all[0][i].scores[0].estimates == all[1][i].scores[0].estimates);
+    found += all[0][i].scores[0].found;
   }
   CHECK(found > 50);
   CHECK(found < 240);
@@ -134,7 +134,7 @@ TEST_CASE("progress is reported, and a cancelled evaluation stops") {
   CHECK(stop.progress() == 1);
   const StopToken cancelled;
   cancelled.cancel();
-  CHECK(run(scene, {.subsets = {{0}}}, cancelled)[0].verdicts.empty());
+  CHECK(run(scene, {.subsets = {{0}}}, cancelled)[0].scores.empty());
 }
 
 TEST_CASE("mean, deviation, median and largest") {
@@ -150,12 +150,13 @@ TEST_CASE("mean, deviation, median and largest") {
 }
 
 TEST_CASE("summaries count over runs and average over their means") {
-  SubsetRun a{0, 0, {Verdict{.true_objects = 2, .estimates = 3, .found = 1, .correct = 2}}};
-  a.verdicts[0].found_at = {0, 2};
-  a.verdicts[0].objects = {{0, 0, 0.002, 0.1, 0.004}, {1, 1, 0.004, 0.3, 0.008}};
-  a.verdicts[0].self_consistency_mm2 = 7;
-  SubsetRun b{1, 0, {Verdict{.true_objects = 2, .estimates = 0}}};
-  b.verdicts[0].found_at = {0, 0};
+  SubsetRun a{
+      0, 0, {ReconstructionScore{.true_objects = 2, .estimates = 3, .found = 1, .correct = 2}}};
+  a.scores[0].found_at = {0, 2};
+  a.scores[0].objects = {{0, 0, 0.002, 0.1, 0.004}, {1, 1, 0.004, 0.3, 0.008}};
+  a.scores[0].self_consistency_mm2 = 7;
+  SubsetRun b{1, 0, {ReconstructionScore{.true_objects = 2, .estimates = 0}}};
+  b.scores[0].found_at = {0, 0};
   const std::vector<const SubsetRun*> runs{&a, &b};
   const RunSummary summary = summary_of(runs, 0);
   CHECK(summary.runs == 2);

@@ -7,7 +7,7 @@
 #include "support/expect_error.hpp"
 #include "support/non_finite.hpp"
 #include "vantage/planner/view_constraints.hpp"
-#include "vantage/volume/classify.hpp"
+#include "vantage/volume/advanced/classify.hpp"
 
 namespace vantage::test {
 namespace {
@@ -36,10 +36,11 @@ struct Cell {
     grid = classify(world, GridGeometry::covering(Box({-0.2, -0.2, 0}, {0.2, 0.2, 0.2}), 0.01));
   }
 
-  Rejection check(const ViewConstraints& limits, const Eigen::Vector3d& eye,
-                  const Eigen::Vector3d& target = {0, 0, 0.0501}) const {
-    const ViewChecker checker(limits, PlanningScene(world, grid, OccluderMode::mesh), kCellRange);
-    return checker.check(Pose::looking_at(eye, target));
+  InvalidReason check(const ViewConstraints& limits, const Eigen::Vector3d& eye,
+                      const Eigen::Vector3d& target = {0, 0, 0.0501}) const {
+    const ViewValidityChecker validity(limits, PlanningScene(world, grid, OccluderMode::mesh),
+                                       kCellRange);
+    return validity.check(Pose::looking_at(eye, target));
   }
 };
 
@@ -51,31 +52,31 @@ ReachMap two_cells() {
 
 TEST_CASE("without limits a view is in the open, above the floor") {
   const Cell cell;
-  CHECK(cell.check({}, {0.5, 0, 0.2}) == Rejection::none);
-  CHECK(cell.check({}, {0.5, 0, 1e-9}) == Rejection::none);
-  CHECK(cell.check({}, {0.5, 0, 0}) == Rejection::below_the_floor);
-  CHECK(cell.check({}, {0.5, 0, -0.1}) == Rejection::below_the_floor);
+  CHECK(cell.check({}, {0.5, 0, 0.2}) == InvalidReason::none);
+  CHECK(cell.check({}, {0.5, 0, 1e-9}) == InvalidReason::none);
+  CHECK(cell.check({}, {0.5, 0, 0}) == InvalidReason::below_the_floor);
+  CHECK(cell.check({}, {0.5, 0, -0.1}) == InvalidReason::below_the_floor);
 }
 
 TEST_CASE("a view is where the robot reaches: shell, box and map at once") {
   const Cell cell;
   const ViewConstraints shell{.reach = Reach{{0, 0, 0}, 0.3, 0.8}};
-  CHECK(cell.check(shell, {0.5, 0, 0.2}) == Rejection::none);
-  CHECK(cell.check(shell, {0.79, 0, 0.2}) == Rejection::out_of_reach);
-  CHECK(cell.check(shell, {0.2, 0, 0.2}) == Rejection::out_of_reach);
+  CHECK(cell.check(shell, {0.5, 0, 0.2}) == InvalidReason::none);
+  CHECK(cell.check(shell, {0.79, 0, 0.2}) == InvalidReason::out_of_reach);
+  CHECK(cell.check(shell, {0.2, 0, 0.2}) == InvalidReason::out_of_reach);
   const ViewConstraints box{.reach_box = Box({-1, -1, 0.1}, {0.6, 0.6, 1})};
-  CHECK(cell.check(box, {0.5, 0, 0.2}) == Rejection::none);
-  CHECK(cell.check(box, {0.7, 0, 0.2}) == Rejection::out_of_reach);
-  CHECK(cell.check(box, {0.5, 0, 0.05}) == Rejection::out_of_reach);
+  CHECK(cell.check(box, {0.5, 0, 0.2}) == InvalidReason::none);
+  CHECK(cell.check(box, {0.7, 0, 0.2}) == InvalidReason::out_of_reach);
+  CHECK(cell.check(box, {0.5, 0, 0.05}) == InvalidReason::out_of_reach);
   const ViewConstraints map{.reach_map = std::make_shared<const ReachMap>(two_cells())};
-  CHECK(cell.check(map, {0.4, 0.1, 0.6}) == Rejection::none);
-  CHECK(cell.check(map, {0.4, 0.1, 0.4}) == Rejection::out_of_reach);
-  CHECK(cell.check(map, {0.6, 0.1, 0.6}) == Rejection::out_of_reach);
-  CHECK(cell.check(map, {-0.1, 0.1, 0.6}) == Rejection::out_of_reach);
+  CHECK(cell.check(map, {0.4, 0.1, 0.6}) == InvalidReason::none);
+  CHECK(cell.check(map, {0.4, 0.1, 0.4}) == InvalidReason::out_of_reach);
+  CHECK(cell.check(map, {0.6, 0.1, 0.6}) == InvalidReason::out_of_reach);
+  CHECK(cell.check(map, {-0.1, 0.1, 0.6}) == InvalidReason::out_of_reach);
   ViewConstraints all = map;
   all.reach = Reach{{0, 0, 0}, 0, 0.7};
-  CHECK(cell.check(all, {0.1, 0.1, 0.6}) == Rejection::none);
-  CHECK(cell.check(all, {0.4, 0.1, 0.6}) == Rejection::out_of_reach);
+  CHECK(cell.check(all, {0.1, 0.1, 0.6}) == InvalidReason::none);
+  CHECK(cell.check(all, {0.4, 0.1, 0.6}) == InvalidReason::out_of_reach);
 }
 
 TEST_CASE("a reach map's cells are numbered with k fastest") {
@@ -96,71 +97,72 @@ TEST_CASE("a reach map's cells are numbered with k fastest") {
 TEST_CASE("a view looks along the cone") {
   const Cell cell;
   ViewConstraints limits{.view_cone = ViewCone{{0, 0, -3}, 0.25 * std::numbers::pi}};
-  CHECK(cell.check(limits, {0.3, 0, 0.5}) == Rejection::none);
-  CHECK(cell.check(limits, {0.6, 0, 0.5}) == Rejection::outside_the_view_cone);
-  CHECK(cell.check(limits, {0.45, 0, 0.5}, {0, 0, 0.05}) == Rejection::none);  // along its border
+  CHECK(cell.check(limits, {0.3, 0, 0.5}) == InvalidReason::none);
+  CHECK(cell.check(limits, {0.6, 0, 0.5}) == InvalidReason::outside_the_view_cone);
+  CHECK(cell.check(limits, {0.45, 0, 0.5}, {0, 0, 0.05}) ==
+        InvalidReason::none);                           // along its border
   limits.view_cone->half_angle_rad = std::numbers::pi;  // everywhere, even up
-  CHECK(cell.check(limits, {0.5, 0, 0.2}, {0.5, 0, 1}) == Rejection::none);
+  CHECK(cell.check(limits, {0.5, 0, 0.2}, {0.5, 0, 1}) == InvalidReason::none);
 }
 
 TEST_CASE("a camera is in nothing occupied, in the work area or beyond, and in no shadow") {
   const Cell cell;
-  CHECK(cell.check({}, {0.03, 0.02, 0.03}) == Rejection::inside_occupied_volume);
-  CHECK(cell.check({}, {1, 0.3, 0.5}) == Rejection::inside_occupied_volume);  // in the wall
-  CHECK(cell.check({}, {1.2, 0.3, 0.5}) == Rejection::none);
+  CHECK(cell.check({}, {0.03, 0.02, 0.03}) == InvalidReason::inside_occupied_volume);
+  CHECK(cell.check({}, {1, 0.3, 0.5}) == InvalidReason::inside_occupied_volume);  // in the wall
+  CHECK(cell.check({}, {1.2, 0.3, 0.5}) == InvalidReason::none);
   const Cell dark(false);  // nobody looks: all that is not the cube is shadow
-  CHECK(dark.check({}, {0.15, 0.1, 0.1}) == Rejection::inside_shadow);
-  CHECK(dark.check({}, {0.03, 0.02, 0.03}) == Rejection::inside_occupied_volume);
+  CHECK(dark.check({}, {0.15, 0.1, 0.1}) == InvalidReason::inside_shadow);
+  CHECK(dark.check({}, {0.03, 0.02, 0.03}) == InvalidReason::inside_occupied_volume);
 }
 
 TEST_CASE("what is nearer than the near depth would not be measured") {
   const Cell dark(false);
-  CHECK(dark.check({}, {0.24, 0, 0.1}) == Rejection::too_close_to_shadow);  // 4 cm from it
-  CHECK(dark.check({}, {0.26, 0, 0.1}) == Rejection::none);
-  CHECK(dark.check({}, {0.235, 0.235, 0.1}) == Rejection::too_close_to_shadow);
-  CHECK(dark.check({}, {0.236, 0.236, 0.1}) == Rejection::none);  // beside an edge
+  CHECK(dark.check({}, {0.24, 0, 0.1}) == InvalidReason::too_close_to_shadow);  // 4 cm from it
+  CHECK(dark.check({}, {0.26, 0, 0.1}) == InvalidReason::none);
+  CHECK(dark.check({}, {0.235, 0.235, 0.1}) == InvalidReason::too_close_to_shadow);
+  CHECK(dark.check({}, {0.236, 0.236, 0.1}) == InvalidReason::none);  // beside an edge
 }
 
 TEST_CASE("the camera's body keeps its distance") {
   const Cell cell;
   const Eigen::Vector3d eye(0.7, 0, 0.5);  // 20 cm before the wall, which is at its back
-  CHECK(cell.check({.clearance_m = 0.19}, eye) == Rejection::none);
-  CHECK(cell.check({.clearance_m = 0.21}, eye) == Rejection::too_close_to_occupied);
-  CHECK(cell.check({.clearance_m = 0.1, .body = SphereBody{0.09}}, eye) == Rejection::none);
+  CHECK(cell.check({.clearance_m = 0.19}, eye) == InvalidReason::none);
+  CHECK(cell.check({.clearance_m = 0.21}, eye) == InvalidReason::too_close_to_occupied);
+  CHECK(cell.check({.clearance_m = 0.1, .body = SphereBody{0.09}}, eye) == InvalidReason::none);
   CHECK(cell.check({.clearance_m = 0.1, .body = SphereBody{0.11}}, eye) ==
-        Rejection::too_close_to_occupied);
+        InvalidReason::too_close_to_occupied);
   const Eigen::Vector3d level(0, 0, 0.5);  // the axes of the camera are the world's
   const auto with_length = [](double length_m, double clearance_m) {
     return ViewConstraints{.clearance_m = clearance_m,
                            .body = BoxBody{Box({-0.02, -0.02, -length_m}, {0.02, 0.02, 0})}};
   };
-  CHECK(cell.check(with_length(0.15, 0.04), eye, level) == Rejection::none);
-  CHECK(cell.check(with_length(0.15, 0.06), eye, level) == Rejection::too_close_to_occupied);
-  CHECK(cell.check(with_length(0.19, 0), eye, level) == Rejection::none);
-  CHECK(cell.check(with_length(0.21, 0), eye, level) == Rejection::too_close_to_occupied);
-  CHECK(cell.check(with_length(0.21, 0), eye, {1, 0, 0.5}) == Rejection::none);  // turned round
+  CHECK(cell.check(with_length(0.15, 0.04), eye, level) == InvalidReason::none);
+  CHECK(cell.check(with_length(0.15, 0.06), eye, level) == InvalidReason::too_close_to_occupied);
+  CHECK(cell.check(with_length(0.19, 0), eye, level) == InvalidReason::none);
+  CHECK(cell.check(with_length(0.21, 0), eye, level) == InvalidReason::too_close_to_occupied);
+  CHECK(cell.check(with_length(0.21, 0), eye, {1, 0, 0.5}) == InvalidReason::none);  // turned round
   // A box beside the camera that is inside the wall as a whole touches no face of it.
   const ViewConstraints beside{.body = BoxBody{Box({-0.02, -0.02, -0.32}, {0.02, 0.02, -0.28})}};
-  CHECK(cell.check(beside, eye, level) == Rejection::too_close_to_occupied);
+  CHECK(cell.check(beside, eye, level) == InvalidReason::too_close_to_occupied);
 }
 
 TEST_CASE("the camera's body keeps its distance from the floor, which is no structure") {
   const Cell cell;
   const Eigen::Vector3d eye(0.5, 0, 0.1), level(0, 0, 0.1);
-  CHECK(cell.check({.clearance_m = 0.099}, eye) == Rejection::none);
-  CHECK(cell.check({.clearance_m = 0.101}, eye) == Rejection::too_close_to_occupied);
-  CHECK(cell.check({.body = SphereBody{0.099}}, eye) == Rejection::none);
-  CHECK(cell.check({.body = SphereBody{0.101}}, eye) == Rejection::too_close_to_occupied);
+  CHECK(cell.check({.clearance_m = 0.099}, eye) == InvalidReason::none);
+  CHECK(cell.check({.clearance_m = 0.101}, eye) == InvalidReason::too_close_to_occupied);
+  CHECK(cell.check({.body = SphereBody{0.099}}, eye) == InvalidReason::none);
+  CHECK(cell.check({.body = SphereBody{0.101}}, eye) == InvalidReason::too_close_to_occupied);
   CHECK(cell.check({.clearance_m = 0.05, .body = SphereBody{0.051}}, eye) ==
-        Rejection::too_close_to_occupied);
+        InvalidReason::too_close_to_occupied);
   // The camera's y axis points down, and its z axis to where it looks.
   const auto box = [](const Box& body) { return ViewConstraints{.body = BoxBody{body}}; };
   const ViewConstraints short_one = box(Box({-0.2, -0.2, -0.1}, {0.2, 0.099, 0}));
-  CHECK(cell.check(short_one, eye, level) == Rejection::none);
+  CHECK(cell.check(short_one, eye, level) == InvalidReason::none);
   CHECK(cell.check(box(Box({-0.2, -0.2, -0.1}, {0.2, 0.101, 0})), eye, level) ==
-        Rejection::too_close_to_occupied);
+        InvalidReason::too_close_to_occupied);
   // As it looks upwards, its back sinks.
-  CHECK(cell.check(short_one, eye, {0, 0, 0.5}) == Rejection::too_close_to_occupied);
+  CHECK(cell.check(short_one, eye, {0, 0, 0.5}) == InvalidReason::too_close_to_occupied);
 }
 
 TEST_CASE("of several reasons the first one counts") {
@@ -168,23 +170,23 @@ TEST_CASE("of several reasons the first one counts") {
   ViewConstraints limits{
       .reach = Reach{{0, 0, 0}, 5, 6}, .view_cone = ViewCone{{0, 0, 1}, 0.1}, .clearance_m = 1};
   const Eigen::Vector3d in_cube(0.03, 0.02, 0.03), in_shadow(0.15, 0.1, 0.1), near(0.24, 0, 0.1);
-  CHECK(dark.check(limits, {0.03, 0.02, -0.1}) == Rejection::below_the_floor);
-  CHECK(dark.check(limits, in_cube) == Rejection::out_of_reach);
+  CHECK(dark.check(limits, {0.03, 0.02, -0.1}) == InvalidReason::below_the_floor);
+  CHECK(dark.check(limits, in_cube) == InvalidReason::out_of_reach);
   limits.reach.reset();
-  CHECK(dark.check(limits, in_cube) == Rejection::outside_the_view_cone);
+  CHECK(dark.check(limits, in_cube) == InvalidReason::outside_the_view_cone);
   limits.view_cone.reset();
-  CHECK(dark.check(limits, in_cube) == Rejection::inside_occupied_volume);
-  CHECK(dark.check(limits, in_shadow) == Rejection::inside_shadow);
-  CHECK(dark.check(limits, near) == Rejection::too_close_to_shadow);
-  CHECK(dark.check(limits, {0.5, 0, 0.1}) == Rejection::too_close_to_occupied);
+  CHECK(dark.check(limits, in_cube) == InvalidReason::inside_occupied_volume);
+  CHECK(dark.check(limits, in_shadow) == InvalidReason::inside_shadow);
+  CHECK(dark.check(limits, near) == InvalidReason::too_close_to_shadow);
+  CHECK(dark.check(limits, {0.5, 0, 0.1}) == InvalidReason::too_close_to_occupied);
 }
 
 TEST_CASE("every rejection has words of its own") {
   std::set<std::string_view> words;
-  for (int reason = 0; reason <= int(Rejection::too_close_to_occupied); ++reason) {
-    CHECK(words.insert(to_text(Rejection(reason))).second);
+  for (int reason = 0; reason <= int(InvalidReason::too_close_to_occupied); ++reason) {
+    CHECK(words.insert(to_text(InvalidReason(reason))).second);
   }
-  CHECK(to_text(Rejection::below_the_floor) == "below the floor");
+  CHECK(to_text(InvalidReason::below_the_floor) == "below the floor");
 }
 
 TEST_CASE("limits that make no sense are refused with their values") {

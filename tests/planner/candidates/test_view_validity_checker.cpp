@@ -8,7 +8,7 @@
 #include "reference/plain_view_check.hpp"
 #include "reference/random_boxes.hpp"
 #include "support/scene_count.hpp"
-#include "vantage/volume/classify.hpp"
+#include "vantage/volume/advanced/classify.hpp"
 
 namespace vantage::test {
 namespace {
@@ -46,7 +46,7 @@ Pose random_pose(Random& random) {
 }  // namespace
 
 TEST_CASE("the checker agrees with its slow twin, for every reason") {
-  std::map<Rejection, std::size_t> seen;
+  std::map<InvalidReason, std::size_t> seen;
   std::size_t close_calls = 0;
   for (std::uint32_t seed = 0; seed < scene_count(30); ++seed) {
     CAPTURE(seed);
@@ -57,7 +57,7 @@ TEST_CASE("the checker agrees with its slow twin, for every reason") {
     const PlanningScene scene(world, grid, OccluderMode::mesh);
     for (int i = 0; i < 10; ++i) {
       const ViewConstraints limits = random_limits(random);
-      const ViewChecker checker(limits, scene, kRange);
+      const ViewValidityChecker validity(limits, scene, kRange);
       for (int j = 0; j < 4; ++j) {
         const Pose pose = random_pose(random);
         const auto expected = plain_view_check(world, *grid, limits, kRange, pose);
@@ -66,14 +66,14 @@ TEST_CASE("the checker agrees with its slow twin, for every reason") {
           continue;
         }
         CAPTURE(to_text(*expected));
-        REQUIRE(checker.check(pose) == *expected);
+        REQUIRE(validity.check(pose) == *expected);
         ++seen[*expected];
       }
     }
   }
-  for (int reason = 0; reason <= int(Rejection::too_close_to_occupied); ++reason) {
-    CAPTURE(to_text(Rejection(reason)));
-    CHECK(seen[Rejection(reason)] >= enough(10));
+  for (int reason = 0; reason <= int(InvalidReason::too_close_to_occupied); ++reason) {
+    CAPTURE(to_text(InvalidReason(reason)));
+    CHECK(seen[InvalidReason(reason)] >= enough(10));
   }
   CHECK(close_calls < 20);
 }
@@ -93,8 +93,8 @@ TEST_CASE("with voxels as occluders, distances are to the voxels") {
   const auto distance = [&](OccluderMode mode) {
     const PlanningScene scene(world, grid, mode);
     double distance_m = 0;
-    while (ViewChecker({.clearance_m = distance_m}, scene, {1e-6, 3}).check(beside) ==
-           Rejection::none)
+    while (ViewValidityChecker({.clearance_m = distance_m}, scene, {1e-6, 3}).check(beside) ==
+           InvalidReason::none)
       distance_m += 1e-4;
     return distance_m;
   };
@@ -110,8 +110,9 @@ TEST_CASE("shadow is as close with a wall before it, whatever stands for the wal
   const Pose before = Pose::looking_at({0, -0.05, 0.09}, {0, 0, 0.09});
   for (const OccluderMode mode : {OccluderMode::mesh, OccluderMode::voxels}) {
     const PlanningScene scene(world, grid, mode);
-    CHECK(ViewChecker({}, scene, {0.06, 3}).check(before) == Rejection::none);
-    CHECK(ViewChecker({}, scene, {0.08, 3}).check(before) == Rejection::too_close_to_shadow);
+    CHECK(ViewValidityChecker({}, scene, {0.06, 3}).check(before) == InvalidReason::none);
+    CHECK(ViewValidityChecker({}, scene, {0.08, 3}).check(before) ==
+          InvalidReason::too_close_to_shadow);
   }
 }
 
@@ -119,15 +120,16 @@ TEST_CASE("many threads may check at once") {
   const BoxWorld boxes = random_boxes(7, 0.02);
   const WorldModel world = boxes.model();
   const PlanningScene scene(world, classify(world, boxes.geometry), OccluderMode::mesh);
-  const ViewChecker checker({.clearance_m = 0.02, .body = SphereBody{0.01}}, scene, kRange);
+  const ViewValidityChecker validity({.clearance_m = 0.02, .body = SphereBody{0.01}}, scene,
+                                     kRange);
   const auto check_all = [&] {
     Random random(1);
-    std::vector<Rejection> reasons;
-    for (int i = 0; i < 2000; ++i) reasons.push_back(checker.check(random_pose(random)));
+    std::vector<InvalidReason> reasons;
+    for (int i = 0; i < 2000; ++i) reasons.push_back(validity.check(random_pose(random)));
     return reasons;
   };
-  const std::vector<Rejection> alone = check_all();
-  std::vector<Rejection> together[4];
+  const std::vector<InvalidReason> alone = check_all();
+  std::vector<InvalidReason> together[4];
   std::vector<std::thread> threads;
   for (auto& reasons : together) threads.emplace_back([&] { reasons = check_all(); });
   for (std::thread& thread : threads) thread.join();

@@ -7,7 +7,7 @@
 #include "planner/wall_world.hpp"
 #include "support/expect_error.hpp"
 #include "support/scene_count.hpp"
-#include "vantage/raycore/scene_builder.hpp"
+#include "vantage/raycore/advanced/scene_builder.hpp"
 
 namespace vantage {
 namespace {
@@ -181,7 +181,7 @@ TEST_CASE("with everything out of reach there is no view, and each candidate say
   CHECK(plan.stopped == StopReason::none);
   CHECK(plan.finished == plan.candidates.size());
   for (const ScoredCandidate& candidate : plan.candidates) {
-    CHECK(candidate.rejected == Rejection::out_of_reach);
+    CHECK(candidate.rejected == InvalidReason::out_of_reach);
     CHECK(candidate.score.known == ScoreBound::Known::nothing);
   }
 }

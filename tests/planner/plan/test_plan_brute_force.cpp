@@ -20,7 +20,8 @@ std::vector<PlainRank> score_everything(const WorldModel& world, const Plan& pla
   std::vector<PlainRank> all;
   for (std::size_t c = 0; c < plan.candidates.size(); ++c) {
     const ViewExplanation view = explain_view(world, plan, plan.candidates[c].view.id);
-    CHECK((view.rejected == Rejection::none) == (plan.candidates[c].rejected == Rejection::none));
+    CHECK((view.rejected == InvalidReason::none) ==
+          (plan.candidates[c].rejected == InvalidReason::none));
     PlainRank best{c, 0, 0};
     for (std::size_t i = 0; i < view.trace.size(); ++i) {
       REQUIRE(view.trace[i].score.exact());

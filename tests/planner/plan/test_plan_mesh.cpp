@@ -5,7 +5,7 @@
 
 #include "planner/wall_world.hpp"
 #include "support/expect_error.hpp"
-#include "vantage/volume/classify.hpp"
+#include "vantage/volume/advanced/classify.hpp"
 
 namespace vantage {
 namespace {
@@ -83,19 +83,19 @@ TEST_CASE("what is not on the shortlist is passed over, and the best is the best
   request.method.mesh.shortlist = 4;
   request.search.ranked = 3;
   const Plan plan = plan_next_view(world, request);
-  std::size_t exact = 0, passed_over = 0;
+  std::size_t exact = 0, pruned = 0;
   Score best = 0;
   for (const ScoredCandidate& candidate : plan.candidates) {
-    if (candidate.rejected != Rejection::none) continue;
+    if (candidate.rejected != InvalidReason::none) continue;
     if (candidate.score.exact()) {
       ++exact;
       best = std::max(best, candidate.score.score);
     }
-    if (candidate.score.known == ScoreBound::Known::passed_over) ++passed_over;
+    if (candidate.score.known == ScoreBound::Known::pruned) ++pruned;
   }
   CHECK(plan.ranked.size() == 3);
   CHECK(exact >= 3);
-  CHECK(passed_over > exact);
+  CHECK(pruned > exact);
   CHECK(plan.best()->score == best);
   CHECK(plan.finished == plan.candidates.size());
 }

@@ -6,7 +6,7 @@
 
 #include "planner/wall_world.hpp"
 #include "support/expect_error.hpp"
-#include "vantage/planner/voxel_scorer.hpp"
+#include "vantage/planner/advanced/voxel_scorer.hpp"
 
 namespace vantage {
 namespace {
@@ -70,7 +70,7 @@ TEST_CASE("further views are those that plain greedy takes") {
   for (const NextView& next : plan.views) {
     std::size_t best = 0;
     for (std::size_t c = 1; c < sets.size(); ++c) {
-      const bool feasible = plan.candidates[c].rejected == Rejection::none;
+      const bool feasible = plan.candidates[c].rejected == InvalidReason::none;
       if (feasible && gain(sets[c], left) > gain(sets[best], left)) best = c;
     }
     CHECK(next.view.candidate == best);
@@ -88,7 +88,7 @@ TEST_CASE("greedy views reveal at least 1 - 1/e of what the best views can") {
   const Plan plan = plan_next_view(world, request);
   std::vector<Pose> poses;
   for (const ScoredCandidate& candidate : plan.candidates) {
-    if (candidate.rejected == Rejection::none) poses.push_back(candidate.view.T_world_cam);
+    if (candidate.rejected == InvalidReason::none) poses.push_back(candidate.view.T_world_cam);
   }
   const auto sets = revealed_sets(world, plan, poses);
   std::uint64_t best = 0;
@@ -175,7 +175,7 @@ TEST_CASE("views end where they are not worth it") {
   CHECK(all.views.size() < 100);  // nothing is left to reveal
   CHECK(all.views.size() > 3);
   CHECK(all.stopped == StopReason::none);
-  request.views.least_gain_m3 = 0.9 * all.volume_m3(all.views[1].revealed_voxels);
+  request.views.min_gain_m3 = 0.9 * all.volume_m3(all.views[1].revealed_voxels);
   const Plan some = plan_next_view(posts_world(), request);
   CHECK(some.views.size() < all.views.size());
   CHECK(some.views.size() >= 2);
@@ -209,8 +209,8 @@ TEST_CASE("an explanation adds up") {
   for (const ScoredCandidate& candidate : plan.candidates) {
     const ViewExplanation view = explain_view(world, plan, candidate.view.id);
     kinds.insert(view.verdict.substr(0, view.verdict.find(' ')));
-    CHECK((view.rejected == Rejection::none) == (candidate.rejected == Rejection::none));
-    if (view.rejected != Rejection::none) continue;
+    CHECK((view.rejected == InvalidReason::none) == (candidate.rejected == InvalidReason::none));
+    if (view.rejected != InvalidReason::none) continue;
     const ScoredStep& best = view.trace[view.best_step];
     for (const ScoredStep& step : view.trace) CHECK(step.score.score <= best.score.score);
     CHECK(best.score.score <= plan.best()->score);

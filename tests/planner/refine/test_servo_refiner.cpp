@@ -1,7 +1,7 @@
 #include <doctest/doctest.h>
 
-#include "vantage/planner/servo_refiner.hpp"
-#include "vantage/volume/classify.hpp"
+#include "vantage/planner/advanced/servo_refiner.hpp"
+#include "vantage/volume/advanced/classify.hpp"
 
 namespace vantage {
 namespace {
@@ -46,7 +46,7 @@ ServoRefiner refiner(double radius_m, const ViewConstraints& constraints = {},
                             OccluderMode::mesh);
   const DepthRange range{0.05, 5};
   return ServoRefiner(std::make_shared<const BallView>(kCentre, radius_m),
-                      std::make_shared<const ViewChecker>(constraints, empty, range),
+                      std::make_shared<const ViewValidityChecker>(constraints, empty, range),
                       PinholeCamera(k, Pose(), range), kCentre, {iterations, 160});
 }
 
@@ -112,13 +112,13 @@ TEST_CASE("constraints hold at every iteration") {
   const PlanningScene empty(
       {}, classify({}, GridGeometry::covering(Box({-0.1, -0.1, 0}, {0.1, 0.1, 0.2}), 0.05)),
       OccluderMode::mesh);
-  const ViewChecker checker(shell, empty, {0.05, 5});
+  const ViewValidityChecker validity(shell, empty, {0.05, 5});
   bool kept = false;
   for (const double radius_m : {0.02, 0.1, 0.6}) {
     for (const Eigen::Vector3d& eye : {Eigen::Vector3d(0, -0.65, 0.3), {0.3, 0.5, 0.5}}) {
       for (const ServoStep& step :
            refiner(radius_m, shell).path(Pose::looking_at(eye, {0.1, 0, 0.1}))) {
-        CHECK(checker.check(step.T_world_cam) == Rejection::none);
+        CHECK(validity.check(step.T_world_cam) == InvalidReason::none);
         kept |= step.move == ServoMove::closer || step.move == ServoMove::back;
       }
     }

@@ -10,9 +10,9 @@
 #include "reference/plain_polish.hpp"
 #include "support/expect_error.hpp"
 #include "support/scene_count.hpp"
+#include "vantage/planner/advanced/view_polisher.hpp"
 #include "vantage/planner/methods.hpp"
-#include "vantage/planner/view_polisher.hpp"
-#include "vantage/volume/classify.hpp"
+#include "vantage/volume/advanced/classify.hpp"
 
 namespace vantage {
 namespace {
@@ -51,10 +51,10 @@ class HillScorer final : public ViewScorer {
   Eigen::Vector3d eye_, forward_;
 };
 
-std::shared_ptr<const ViewChecker> free_space(const ViewConstraints& constraints = {}) {
+std::shared_ptr<const ViewValidityChecker> free_space(const ViewConstraints& constraints = {}) {
   const PlanningScene empty({}, classify({}, GridGeometry::covering(test::kSmallArea, 0.05)),
                             OccluderMode::mesh);
-  return std::make_shared<const ViewChecker>(constraints, empty, kCamera.range());
+  return std::make_shared<const ViewValidityChecker>(constraints, empty, kCamera.range());
 }
 
 /// Checks what has to be true of each step by itself.
@@ -112,10 +112,10 @@ TEST_CASE("polishing climbs as its slow twin does, step by step") {
         kMiddle + distance_m * goal, (-goal + random.in_cube(0.2)).normalized());
     ViewConstraints constraints;
     if (i % 3 == 0) constraints.reach = Reach{kMiddle + distance_m * direction, 0, 0.3};
-    const auto checker = free_space(constraints);
-    const ViewPolisher polisher(hill, checker, kCamera, kMiddle, {});
+    const auto validity = free_space(constraints);
+    const ViewPolisher polisher(hill, validity, kCamera, kMiddle, {});
     const auto worth = [&](const Pose& pose) {
-      return checker->check(pose) == Rejection::none ? hill->height(pose) : 0;
+      return validity->check(pose) == InvalidReason::none ? hill->height(pose) : 0;
     };
     const std::vector<PolishStep> path = polisher.path(start);
     const auto plain = test::plain_polish(start, kMiddle, worth);
@@ -169,7 +169,8 @@ TEST_CASE("on random workcells every step is feasible and better, and the end a 
     const PinholeCamera camera = test::shadow_view_outside(random, 160, 120);
     ViewConstraints constraints;
     if (seed % 2 == 1) constraints.reach = Reach{camera.centre(), 0, 0.4};
-    const auto checker = std::make_shared<const ViewChecker>(constraints, scene, camera.range());
+    const auto validity =
+        std::make_shared<const ViewValidityChecker>(constraints, scene, camera.range());
     const Eigen::Vector3d middle = scene.middle_of_shadow();
     for (const char* method : {"voxel", "shadow", "light"}) {
       CAPTURE(seed);
@@ -177,12 +178,12 @@ TEST_CASE("on random workcells every step is feasible and better, and the end a 
       const std::shared_ptr<const ViewScorer> scorer =
           make_view_scorer({method, 6}, scene, world, camera.range());
       const auto worth = [&](const Pose& pose) {
-        if (checker->check(pose) != Rejection::none) return Score(0);
+        if (validity->check(pose) != InvalidReason::none) return Score(0);
         return scorer->score(camera.moved_to(pose)).score;
       };
       if (worth(camera.T_world_cam()) == 0) continue;
       const std::vector<PolishStep> path =
-          ViewPolisher(scorer, checker, camera, middle, {}).path(camera.T_world_cam());
+          ViewPolisher(scorer, validity, camera, middle, {}).path(camera.T_world_cam());
       expect_better_and_better(camera.T_world_cam(), path, middle, worth);
       expect_nothing_better_around(camera.T_world_cam(), path, middle, worth);
       steps += path.size();

@@ -9,7 +9,7 @@
 #include "planner/small_area.hpp"
 #include "support/expect_error.hpp"
 #include "vantage/planner/plan.hpp"
-#include "vantage/volume/classify.hpp"
+#include "vantage/volume/advanced/classify.hpp"
 
 namespace vantage {
 namespace {
@@ -46,23 +46,24 @@ class FakeView final : public ShadowView {
 
 struct SearchSetting {
   std::shared_ptr<test::FakeScorer> scorer;
-  std::shared_ptr<const ViewChecker> checker;
+  std::shared_ptr<const ViewValidityChecker> validity;
   std::shared_ptr<const ServoRefiner> servo;
   SearchOptions options;
 
-  ViewSearch search() const { return {scorer, checker, servo, kSmallCamera, options}; }
+  ViewSearch search() const { return {scorer, validity, servo, kSmallCamera, options}; }
 };
 
 SearchSetting setting(std::uint64_t seed, Score most, Score slack, int servo_iterations) {
   const PlanningScene scene = half_seen_scene();
   ViewConstraints constraints;
   constraints.reach = Reach{{0.3, 0, 0.2}, 0, 0.75};  // rejects some
-  SearchSetting s{std::make_shared<test::FakeScorer>(seed, most, slack),
-                  std::make_shared<const ViewChecker>(constraints, scene, kSmallCamera.range()),
-                  nullptr,
-                  {}};
+  SearchSetting s{
+      std::make_shared<test::FakeScorer>(seed, most, slack),
+      std::make_shared<const ViewValidityChecker>(constraints, scene, kSmallCamera.range()),
+      nullptr,
+      {}};
   if (servo_iterations > 0) {
-    s.servo = std::make_shared<const ServoRefiner>(std::make_shared<const FakeView>(), s.checker,
+    s.servo = std::make_shared<const ServoRefiner>(std::make_shared<const FakeView>(), s.validity,
                                                    kSmallCamera, scene.middle_of_shadow(),
                                                    ServoOptions{servo_iterations, 64});
   }
@@ -80,7 +81,7 @@ std::vector<RankedView> plain_ranking(const SearchSetting& s,
                                       std::span<const ViewCandidate> views) {
   std::vector<RankedView> all;
   for (std::size_t c = 0; c < views.size(); ++c) {
-    if (s.checker->check(views[c].T_world_cam) != Rejection::none) continue;
+    if (s.validity->check(views[c].T_world_cam) != InvalidReason::none) continue;
     std::vector<ServoStep> path = {{views[c].T_world_cam, ServoMove::start}};
     if (s.servo) path = s.servo->path(views[c].T_world_cam);
     std::optional<RankedView> best;
@@ -133,8 +134,8 @@ TEST_CASE("the search ranks candidates as sorting all of them does") {
     CHECK(result.stopped == StopReason::none);
     CHECK(result.finished == views.size());
     for (const ViewCandidate& view : views) {
-      const bool rejected = s.checker->check(view.T_world_cam) != Rejection::none;
-      CHECK((result.candidates[std::size_t(view.id)].rejected != Rejection::none) == rejected);
+      const bool rejected = s.validity->check(view.T_world_cam) != InvalidReason::none;
+      CHECK((result.candidates[std::size_t(view.id)].rejected != InvalidReason::none) == rejected);
       if (!rejected) steps += s.servo ? s.servo->path(view.T_world_cam).size() : 1;
     }
   }
@@ -149,7 +150,7 @@ TEST_CASE("every score that a search reports is right, and so is every bound") {
     std::size_t exact = 0, bounds = 0;
     for (std::size_t c = 0; c < views.size(); ++c) {
       const ScoredCandidate& candidate = result.candidates[c];
-      if (candidate.rejected != Rejection::none) continue;
+      if (candidate.rejected != InvalidReason::none) continue;
       Score best = 0;
       int at = 0, i = 0;
       for (const ScoredStep& step : s.search().trace(views[c])) {
@@ -213,8 +214,8 @@ TEST_CASE("a search refuses options that make no sense") {
   });
   test::expect_bad_input("servo", "-1 iterations", [] { ServoOptions{-1, 160}.check(); });
   test::expect_bad_input("servo", "15 pixels", [] { ServoOptions{5, 15}.check(); });
-  test::expect_bad_input("views", "0 views", [] { ViewCount{0, 0, 0}.check(); });
-  test::expect_bad_input("views", "1.5", [] { ViewCount{1, 0, 1.5}.check(); });
+  test::expect_bad_input("views", "0 views", [] { ViewSequenceOptions{0, 0, 0}.check(); });
+  test::expect_bad_input("views", "1.5", [] { ViewSequenceOptions{1, 0, 1.5}.check(); });
 }
 
 }  // namespace vantage

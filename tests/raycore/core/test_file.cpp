@@ -5,7 +5,7 @@
 #include <csignal>
 #include <stdexcept>
 #include <thread>
-#include <vantage/raycore/file.hpp>
+#include <vantage/raycore/detail/file.hpp>
 
 #include "support/expect_error.hpp"
 #include "support/test_data.hpp"

@@ -1,4 +1,4 @@
-#include "vantage/raycore/instruction_set.hpp"
+#include "vantage/raycore/detail/instruction_set.hpp"
 
 #include <doctest/doctest.h>
 
@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "reference/random_scene.hpp"
-#include "vantage/raycore/multiversion.hpp"
+#include "vantage/raycore/detail/multiversion.hpp"
 
 namespace vantage {
 namespace {

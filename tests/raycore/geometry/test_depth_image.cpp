@@ -30,7 +30,7 @@ TEST_CASE("zero, infinity and NaN are unknown, row by row") {
 }
 
 TEST_CASE("raw counts times the scale are millimetres") {
-  CountImage counts(2, 2);
+  RawDepthImage counts(2, 2);
   counts.samples = {0, 1, 1000, 65535};
   const DepthImage depth = DepthImage::from_counts(counts, 0.1);
   CHECK(std::isnan(depth.at(0, 0)));
@@ -40,7 +40,7 @@ TEST_CASE("raw counts times the scale are millimetres") {
 }
 
 TEST_CASE("a scale so large or small that depths overflow or vanish leaves them unknown") {
-  CountImage counts(1, 1);
+  RawDepthImage counts(1, 1);
   counts.samples = {60000};
   for (const double scale_mm : {1e60, 1e-60}) {
     CHECK(std::isnan(DepthImage::from_counts(counts, scale_mm).at(0, 0)));
@@ -55,13 +55,13 @@ TEST_CASE("what is no depth image is refused") {
     DepthImage(2, 2, {1, 2, 3, -0.25f}, "a.png");
   });
   expect_bad_input("depth", "-inf", [] { DepthImage(1, 1, {-kInfinity}); });
-  const CountImage counts(2, 2, 1);
+  const RawDepthImage counts(2, 2, 1);
   for (const double scale : {0.0, -1.0, HUGE_VAL, std::nan("")}) {
     expect_bad_input("b.png", "depth scale",
                      [&] { DepthImage::from_counts(counts, scale, "b.png"); });
   }
-  expect_bad_input("b.png", "0×0", [] { DepthImage::from_counts(CountImage(), 1, "b.png"); });
-  CountImage torn(2, 2, 1);
+  expect_bad_input("b.png", "0×0", [] { DepthImage::from_counts(RawDepthImage(), 1, "b.png"); });
+  RawDepthImage torn(2, 2, 1);
   torn.samples.resize(9);
   expect_bad_input("b.png", "9 depths for 2×2", [&] { DepthImage::from_counts(torn, 1, "b.png"); });
 }

@@ -28,15 +28,15 @@ const std::string kInterlaced = bytes_of(
     "\x70\x4a\xbe\x2d\x00\x00\x00\x13IDAT\x78\x9c\x63\x60\x60\x64\x60\x60\x62\x60\x60\x66\x9c\x00"
     "\x00\x00\xbb\x00\x98\x03\x26\x12\x30\x00\x00\x00\x00IEND\xae\x42\x60\x82");
 
-CountImage ramp() {
-  CountImage image(31, 17);
+RawDepthImage ramp() {
+  RawDepthImage image(31, 17);
   for (std::size_t i = 0; i < image.samples.size(); ++i) {
     image.samples[i] = std::uint16_t(i * 124 + i % 7);
   }
   return image;
 }
 
-std::string png_bytes(const test::TemporaryFolder& folder, const CountImage& image) {
+std::string png_bytes(const test::TemporaryFolder& folder, const RawDepthImage& image) {
   write_png(folder / "made.png", image);
   return test::read_text(folder / "made.png");
 }
@@ -51,7 +51,7 @@ void expect_refused(std::string_view bytes, std::string_view message) {
 
 TEST_CASE("16-bit counts come back as they were written") {
   const test::TemporaryFolder folder;
-  CountImage image = ramp();
+  RawDepthImage image = ramp();
   image.samples.front() = 0xFFFF;
   image.samples.back() = 0x0102;
   write_png(folder / "depth.png", image);
@@ -60,7 +60,7 @@ TEST_CASE("16-bit counts come back as they were written") {
 
 TEST_CASE("an interlaced image is read") {
   const test::TemporaryFolder folder;
-  const CountImage image = read_png_counts(folder.write("depth.png", kInterlaced));
+  const RawDepthImage image = read_png_counts(folder.write("depth.png", kInterlaced));
   CHECK(image.width == 2);
   CHECK(image.samples == std::vector<std::uint16_t>{1, 2, 3, 400});
 }
@@ -84,9 +84,9 @@ TEST_CASE("a colour image has 8 bits, RGB and its size in the header") {
 TEST_CASE("an image without pixels is not written") {
   const test::TemporaryFolder folder;
   test::expect_bad_input("a.png", "0 x 0 pixels",
-                         [&] { write_png(folder / "a.png", CountImage()); });
+                         [&] { write_png(folder / "a.png", RawDepthImage()); });
   test::expect_bad_input("a.png", "0 x 4", [&] { write_png(folder / "a.png", ColorImage(0, 4)); });
-  CountImage short_image(4, 4);
+  RawDepthImage short_image(4, 4);
   short_image.samples.pop_back();
   test::expect_bad_input("a.png", "15 samples", [&] { write_png(folder / "a.png", short_image); });
   CHECK(std::filesystem::is_empty(folder.path()));
@@ -125,7 +125,7 @@ TEST_CASE("a header that claims more than the file can hold is refused") {
 
 TEST_CASE("a damaged byte never gives another image") {
   const test::TemporaryFolder folder;
-  const CountImage image = ramp();
+  const RawDepthImage image = ramp();
   const std::string whole = png_bytes(folder, image);
   std::size_t refused = 0;
   for (std::size_t i = 0; i < whole.size(); ++i) {
@@ -133,7 +133,7 @@ TEST_CASE("a damaged byte never gives another image") {
     std::string damaged = whole;
     damaged[i] = char(damaged[i] ^ 0x55);
     try {  // newer versions of libpng forgive damage behind the last pixel
-      const CountImage read = read_png_counts(folder.write("damaged.png", damaged));
+      const RawDepthImage read = read_png_counts(folder.write("damaged.png", damaged));
       CHECK(read == image);
     } catch (const Error& error) {
       CHECK(error.code() == ErrorCode::bad_input);

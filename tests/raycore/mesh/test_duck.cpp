@@ -121,21 +121,22 @@ TEST_CASE("ducks of no size are refused") {
 }
 
 TEST_CASE("a surface net of a sphere is closed and lies on it") {
-  const detail::SamplingGrid grid{{-1.3, -1.2, -1.1}, 0.1, {27, 26, 24}};
-  const auto net = detail::surface_nets([](const Vector3d& p) { return p.norm() - 1; }, grid);
+  const raycore::detail::SamplingGrid grid{{-1.3, -1.2, -1.1}, 0.1, {27, 26, 24}};
+  const auto net =
+      raycore::detail::surface_nets([](const Vector3d& p) { return p.norm() - 1; }, grid);
   std::vector<Eigen::Vector3f> vertices;
   for (const Vector3d& p : net.vertices) {
     CHECK(std::abs(p.norm() - 1) < 0.01);
     vertices.push_back(p.cast<float>());
   }
-  const TriangleMesh sphere(vertices, detail::cut_in_two(net));
+  const TriangleMesh sphere(vertices, raycore::detail::cut_in_two(net));
   CHECK(is_watertight(sphere));
   CHECK(volume_m3(sphere) == doctest::Approx(4.0 / 3 * std::numbers::pi).epsilon(0.02));
 }
 
 TEST_CASE("quadrilaterals are cut along the shorter diagonal") {
-  detail::QuadMesh mesh{{{0, 0, 0}, {1, 0, 0}, {3, 3, 0}, {0, 1, 0}}, {{0, 1, 2, 3}}};
-  CHECK(detail::cut_in_two(mesh) == std::vector<Triangle>{{0, 1, 3}, {1, 2, 3}});
+  raycore::detail::QuadMesh mesh{{{0, 0, 0}, {1, 0, 0}, {3, 3, 0}, {0, 1, 0}}, {{0, 1, 2, 3}}};
+  CHECK(raycore::detail::cut_in_two(mesh) == std::vector<Triangle>{{0, 1, 3}, {1, 2, 3}});
   mesh.vertices[2] = {0.6, 0.6, 0};
-  CHECK(detail::cut_in_two(mesh) == std::vector<Triangle>{{0, 1, 2}, {0, 2, 3}});
+  CHECK(raycore::detail::cut_in_two(mesh) == std::vector<Triangle>{{0, 1, 2}, {0, 2, 3}});
 }

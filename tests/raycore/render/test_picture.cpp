@@ -3,8 +3,8 @@
 #include <tbb/task_arena.h>
 
 #include "support/expect_error.hpp"
-#include "vantage/raycore/picture.hpp"
-#include "vantage/raycore/scene_builder.hpp"
+#include "vantage/raycore/advanced/picture.hpp"
+#include "vantage/raycore/advanced/scene_builder.hpp"
 
 namespace vantage {
 namespace {

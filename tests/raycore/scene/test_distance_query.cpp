@@ -7,7 +7,7 @@
 #include "reference/random_scene.hpp"
 #include "support/expect_error.hpp"
 #include "support/scene_count.hpp"
-#include "vantage/raycore/scene_builder.hpp"
+#include "vantage/raycore/advanced/scene_builder.hpp"
 
 namespace vantage::test {
 namespace {

@@ -4,7 +4,7 @@
 
 #include "reference/random_scene.hpp"
 #include "support/expect_error.hpp"
-#include "vantage/raycore/scene_builder.hpp"
+#include "vantage/raycore/advanced/scene_builder.hpp"
 
 using namespace vantage;
 using namespace vantage::test;

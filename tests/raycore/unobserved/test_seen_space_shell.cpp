@@ -47,8 +47,8 @@ TEST_CASE("within a shell of two boxes, rays meet what they meet first in either
     const RandomLattices scene = random_lattices(seed);
     const std::vector<Box> parts = halves(scene.box, int(seed % 3));
     const TriangleMesh shell = shell_of(parts);
-    const SeenSpace space(scene.lattices, scene.box, &shell);
-    const SeenSpace low(scene.lattices, parts[0]), high(scene.lattices, parts[1]);
+    const UnobservedSpace space(scene.lattices, scene.box, &shell);
+    const UnobservedSpace low(scene.lattices, parts[0]), high(scene.lattices, parts[1]);
     Random random(seed);
     const auto place = seed % 2 == 0 ? ViewerPlace::outside : ViewerPlace::inside;
     const PinholeCamera viewer = random_viewer(random, scene, place);
@@ -72,9 +72,9 @@ TEST_CASE("a shell around the whole box changes nothing, and one around nothing 
     CAPTURE(seed);
     const RandomLattices scene = random_lattices(seed);
     const TriangleMesh around = shell_of({grown(scene.box, 0.1)}), nothing;
-    const SeenSpace plain(scene.lattices, scene.box);
-    const SeenSpace within(scene.lattices, scene.box, &around);
-    const SeenSpace without(scene.lattices, scene.box, &nothing);
+    const UnobservedSpace plain(scene.lattices, scene.box);
+    const UnobservedSpace within(scene.lattices, scene.box, &around);
+    const UnobservedSpace without(scene.lattices, scene.box, &nothing);
     Random random(seed);
     const PinholeCamera viewer = random_viewer(random, scene, ViewerPlace::outside);
     const auto a = unseen_pixels(plain, viewer), b = unseen_pixels(within, viewer),

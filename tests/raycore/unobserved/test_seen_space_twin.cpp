@@ -47,7 +47,7 @@ struct Tally {
   std::size_t rays = 0, surfaces = 0, faces = 0, misses = 0, close_calls = 0, wrong = 0;
 };
 
-void compare(const PinholeCamera& viewer, const SeenSpace& space, const PlainSeenSpace& plain,
+void compare(const PinholeCamera& viewer, const UnobservedSpace& space, const PlainSeenSpace& plain,
              bool may_be_wrong, Tally& tally) {
   const double t_far = viewer.range().far_m;
   for (const UnseenPixel& pixel : unseen_pixels(space, viewer)) {
@@ -77,7 +77,7 @@ Tally compare_views(ViewerPlace place, std::uint32_t first_seed, double beside_m
     CAPTURE(seed);
     RandomLattices scene = random_lattices(seed);
     if (beside_m > 0) scene.box = Box({-1, -1, -1}, {1, 1, 1});  // so that rays begin at the viewer
-    const SeenSpace space(scene.lattices, scene.box);
+    const UnobservedSpace space(scene.lattices, scene.box);
     const PlainSeenSpace plain(scene.lattices, scene.box);
     Random random(seed);
     for (int view = 0; view < 2; ++view) {

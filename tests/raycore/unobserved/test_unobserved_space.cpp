@@ -23,7 +23,7 @@ const Box kUnitBox({-0.5, -0.5, 0}, {0.5, 0.5, 1});
 
 /// From 2 m above the middle of the floor down to `height_m`, 2.5 m of it in each direction: more
 /// than the box.
-DepthLattice looks_down(double height_m) {
+VisibilityMesh looks_down(double height_m) {
   const auto depth = float(2 - height_m);
   const float half = 250 / depth;
   return {{{100, 100, 100, 100, 50, 50}, Pose::looking_at({0, 0, 2}, {0, 0, 0})},
@@ -37,7 +37,7 @@ PinholeCamera viewer_at(const Eigen::Vector3d& eye, const Eigen::Vector3d& targe
   return {{41, 41, 60, 60, 20, 20}, Pose::looking_at(eye, target), {0.01, far_m}};
 }
 
-UnseenPixel middle_pixel(const SeenSpace& space, const PinholeCamera& camera) {
+UnseenPixel middle_pixel(const UnobservedSpace& space, const PinholeCamera& camera) {
   for (const UnseenPixel& pixel : unseen_pixels(space, camera)) {
     if (pixel.u == 20 && pixel.v == 20) return pixel;
   }
@@ -58,7 +58,7 @@ std::pair<double, double> ends(const Box& box, const PixelRay& ray, double far_m
 
 bool is_seen(const RandomLattices& scene, const Eigen::Vector3d& point) {
   return std::any_of(scene.lattices.begin(), scene.lattices.end(),
-                     [&](const DepthLattice& lattice) { return lattice.sees(point); });
+                     [&](const VisibilityMesh& lattice) { return lattice.sees(point); });
 }
 
 bool same_bits(const UnseenHits& a, const UnseenHits& b) {
@@ -68,7 +68,7 @@ bool same_bits(const UnseenHits& a, const UnseenHits& b) {
 }  // namespace
 
 TEST_CASE("without lattices a ray meets the box's face, or is in the unseen from the start") {
-  const SeenSpace space({}, kUnitBox);
+  const UnobservedSpace space({}, kUnitBox);
   CHECK(space.lattice_count() == 0);
   CHECK(space.box().max() == kUnitBox.max());
   const auto expect_face = [&](const UnseenPixel& pixel, double t) {
@@ -85,8 +85,8 @@ TEST_CASE("without lattices a ray meets the box's face, or is in the unseen from
 }
 
 TEST_CASE("a ray goes on to where the last volume ends, and knows how it was looked at") {
-  const DepthLattice lattices[] = {looks_down(0.5), looks_down(0.2)};
-  const SeenSpace space(lattices, kUnitBox);
+  const VisibilityMesh lattices[] = {looks_down(0.5), looks_down(0.2)};
+  const UnobservedSpace space(lattices, kUnitBox);
   const auto expect_hit = [&](const PinholeCamera& camera, double t, std::uint32_t source,
                               double facing) {
     const UnseenPixel pixel = middle_pixel(space, camera);
@@ -109,8 +109,8 @@ TEST_CASE("a ray goes on to where the last volume ends, and knows how it was loo
 }
 
 TEST_CASE("a floor that was measured where the box ends is not met") {
-  const DepthLattice lattices[] = {looks_down(0)};
-  const SeenSpace space(lattices, kUnitBox);
+  const VisibilityMesh lattices[] = {looks_down(0)};
+  const UnobservedSpace space(lattices, kUnitBox);
   std::size_t on_box = 0;
   for (const UnseenPixel& pixel : unseen_pixels(space, viewer_at({0.4, 0.3, 2.5}, {0, 0, 0}))) {
     CAPTURE(pixel.u);
@@ -126,14 +126,14 @@ TEST_CASE("the same camera twice shows what it shows once, and one that knows no
   for (std::uint32_t seed = 0; seed < scene_count(30); ++seed) {
     CAPTURE(seed);
     RandomLattices scene = random_lattices(seed);
-    const SeenSpace once(scene.lattices, scene.box);
-    const std::vector<DepthLattice> lattices = scene.lattices;
-    for (const DepthLattice& lattice : lattices) {
+    const UnobservedSpace once(scene.lattices, scene.box);
+    const std::vector<VisibilityMesh> lattices = scene.lattices;
+    for (const VisibilityMesh& lattice : lattices) {
       scene.lattices.push_back(lattice);
       scene.lattices.push_back(lattice);
       std::fill(scene.lattices.back().depth.begin(), scene.lattices.back().depth.end(), kNaN);
     }
-    const SeenSpace twice(scene.lattices, scene.box);
+    const UnobservedSpace twice(scene.lattices, scene.box);
     Random random(seed);
     const PinholeCamera viewer = random_viewer(random, scene, ViewerPlace::outside);
     const auto a = unseen_pixels(once, viewer), b = unseen_pixels(twice, viewer);
@@ -151,22 +151,22 @@ TEST_CASE("rays do not stop at the border between two halves of an image") {
     RandomLattices whole = random_lattices(seed);
     if (whole.lattices.empty()) continue;
     whole.lattices.erase(whole.lattices.begin() + 1, whole.lattices.end());
-    const DepthLattice& lattice = whole.lattices[0];
+    const VisibilityMesh& lattice = whole.lattices[0];
     const std::size_t middle = lattice.width() / 2;
     if (middle == 0 || middle + 1 == lattice.width()) continue;
-    std::vector<DepthLattice> halves = {lattice, lattice};
+    std::vector<VisibilityMesh> halves = {lattice, lattice};
     halves[0].columns.resize(middle + 1);
     halves[1].columns.erase(halves[1].columns.begin(),
                             halves[1].columns.begin() + std::ptrdiff_t(middle));
-    for (DepthLattice& half : halves) half.depth.clear();
+    for (VisibilityMesh& half : halves) half.depth.clear();
     for (std::size_t i = 0; i < lattice.depth.size(); ++i) {
       if (i % lattice.width() <= middle) halves[0].depth.push_back(lattice.depth[i]);
       if (i % lattice.width() >= middle) halves[1].depth.push_back(lattice.depth[i]);
     }
     Random random(seed);
     const PinholeCamera viewer = random_viewer(random, whole, ViewerPlace::inside);
-    const auto a = unseen_pixels(SeenSpace(whole.lattices, whole.box), viewer);
-    const auto b = unseen_pixels(SeenSpace(halves, whole.box), viewer);
+    const auto a = unseen_pixels(UnobservedSpace(whole.lattices, whole.box), viewer);
+    const auto b = unseen_pixels(UnobservedSpace(halves, whole.box), viewer);
     for (std::size_t i = 0; i < a.size(); ++i) {
       CAPTURE(i);
       CHECK((a[i].t == b[i].t || std::abs(a[i].t - b[i].t) < 2e-5));
@@ -181,7 +181,7 @@ TEST_CASE("what lies before a hit is seen, what lies behind it is not") {
   for (std::uint32_t seed = 0; seed < scene_count(200); ++seed) {
     CAPTURE(seed);
     const RandomLattices scene = random_lattices(seed);
-    const SeenSpace space(scene.lattices, scene.box);
+    const UnobservedSpace space(scene.lattices, scene.box);
     Random random(seed);
     const PinholeCamera viewer =
         random_viewer(random, scene, seed % 2 == 0 ? ViewerPlace::outside : ViewerPlace::inside);
@@ -213,9 +213,9 @@ TEST_CASE("a tile's pixels depend neither on other tiles nor on the threads") {
     CAPTURE(seed);
     const RandomLattices scene = random_lattices(seed);
     tbb::task_arena one(1), four(4);
-    std::unique_ptr<SeenSpace> space, other;
-    one.execute([&] { space = std::make_unique<SeenSpace>(scene.lattices, scene.box); });
-    four.execute([&] { other = std::make_unique<SeenSpace>(scene.lattices, scene.box); });
+    std::unique_ptr<UnobservedSpace> space, other;
+    one.execute([&] { space = std::make_unique<UnobservedSpace>(scene.lattices, scene.box); });
+    four.execute([&] { other = std::make_unique<UnobservedSpace>(scene.lattices, scene.box); });
     Random random(seed);
     const PinholeCamera viewer = random_viewer(random, scene, ViewerPlace::inside);
     const std::vector<PixelTile> tiles = image_tiles(viewer.intrinsics());
@@ -232,12 +232,13 @@ TEST_CASE("a tile's pixels depend neither on other tiles nor on the threads") {
 }
 
 TEST_CASE("a seen space refuses what Embree must not see, and says which lattice it is") {
-  const DepthLattice good = looks_down(0);
-  const auto expect_refusal = [&](const DepthLattice& bad, const char* message) {
-    const DepthLattice lattices[] = {good, bad};
-    expect_bad_input("depth lattice 1", message, [&] { SeenSpace space(lattices, kUnitBox); });
+  const VisibilityMesh good = looks_down(0);
+  const auto expect_refusal = [&](const VisibilityMesh& bad, const char* message) {
+    const VisibilityMesh lattices[] = {good, bad};
+    expect_bad_input("depth lattice 1", message,
+                     [&] { UnobservedSpace space(lattices, kUnitBox); });
   };
-  DepthLattice bad = good;
+  VisibilityMesh bad = good;
   bad.depth[2] = -1;
   expect_refusal(bad, "the depth at column 2, row 0 is -1");
   bad.depth[2] = 1e30f;
@@ -246,10 +247,10 @@ TEST_CASE("a seen space refuses what Embree must not see, and says which lattice
   bad.camera = bad.camera.moved_to(Pose::from_translation({0, 2e9, 0}));
   expect_refusal(bad, "it reaches 2e+09 m from the origin; expected 1e9 m at most");
   expect_bad_input("box", "it reaches 3e+09 m", [] {
-    SeenSpace space({}, Box({0, 0, -3e9}, {1, 1, 1}));
+    UnobservedSpace space({}, Box({0, 0, -3e9}, {1, 1, 1}));
   });
 
-  const SeenSpace space({&good, 1}, kUnitBox);
+  const UnobservedSpace space({&good, 1}, kUnitBox);
   const std::vector<PixelTile> tiles(3);
   std::vector<UnseenHits> hits(3);
   expect_bad_input("camera", "centre is [0, 2000000000, 0]", [&] {

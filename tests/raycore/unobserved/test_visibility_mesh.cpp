@@ -7,7 +7,7 @@
 #include "support/expect_error.hpp"
 #include "support/non_finite.hpp"
 #include "support/scene_count.hpp"
-#include "vantage/raycore/visibility_mesh.hpp"
+#include "vantage/raycore/advanced/visibility_mesh.hpp"
 
 using namespace vantage;
 using namespace vantage::test;
@@ -15,8 +15,8 @@ using namespace vantage::test;
 namespace {
 
 /// Looks along +z from the origin; pixel (100 x / z, 100 y / z).
-DepthLattice lattice_of(std::vector<float> columns, std::vector<float> rows,
-                        std::vector<float> depth) {
+VisibilityMesh lattice_of(std::vector<float> columns, std::vector<float> rows,
+                          std::vector<float> depth) {
   return {
       {{100, 100, 100, 100, 0, 0}, Pose()}, std::move(columns), std::move(rows), std::move(depth)};
 }
@@ -24,7 +24,7 @@ DepthLattice lattice_of(std::vector<float> columns, std::vector<float> rows,
 }  // namespace
 
 TEST_CASE("a lattice sees up to its surface, which is a plane in inverse depth") {
-  const DepthLattice lattice = lattice_of({0, 100}, {0, 100}, {1, 1, 1, 4});
+  const VisibilityMesh lattice = lattice_of({0, 100}, {0, 100}, {1, 1, 1, 4});
   const auto surface = [&](double u, double v) {  // by bisection
     double near = 0.01, far = 100;
     for (int i = 0; i < 60; ++i) {
@@ -46,7 +46,7 @@ TEST_CASE("a lattice sees up to its surface, which is a plane in inverse depth")
 }
 
 TEST_CASE("a cell is there if all its four depths are known") {
-  const DepthLattice lattice =
+  const VisibilityMesh lattice =
       lattice_of({0, 10, 20, 30}, {0, 10, 20}, {1, 1, 1, 1, 1, 1, kNaN, 1, 1, 1, 1, 1});
   for (std::size_t j = 0; j < 2; ++j) {
     for (std::size_t i = 0; i < 3; ++i) {
@@ -79,7 +79,7 @@ TEST_CASE("a lattice sees the points that are in its tetrahedra") {
 }
 
 TEST_CASE("lattices that are none are refused, and the error says where") {
-  const auto expect_refusal = [](const DepthLattice& lattice, const char* message) {
+  const auto expect_refusal = [](const VisibilityMesh& lattice, const char* message) {
     expect_bad_input("depth lattice", message, [&] { lattice.check(); });
   };
   lattice_of({0, 1}, {0, 1}, {1, kNaN, 2, 3}).check();

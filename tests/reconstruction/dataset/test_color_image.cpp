@@ -92,7 +92,7 @@ TEST_CASE("a colour image that claims too much is refused before it is decoded")
 
 TEST_CASE("a colour image of 16 bits is refused") {
   TemporaryFolder folder;
-  write_png(folder / "depth.png", CountImage(6, 4, 1000));
+  write_png(folder / "depth.png", RawDepthImage(6, 4, 1000));
   expect_refused([&] { read_color(folder / "depth.png"); }, "depth.png", {"16 bits", "8 bits"});
 }
 

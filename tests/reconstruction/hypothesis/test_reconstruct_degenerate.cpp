@@ -247,9 +247,9 @@ TEST_CASE("degenerate: options and covariances out of range are errors") {
     options.merge_m = -1;
     refuse("options: merge_m", "found -1");
   }
-  SUBCASE("least_evidence") {
-    options.least_evidence = kNaN;
-    refuse("options: least_evidence", "found nan");
+  SUBCASE("min_evidence") {
+    options.min_evidence = kNaN;
+    refuse("options: min_evidence", "found nan");
   }
   SUBCASE("covariance") {
     cell.views[1].covariance(2, 2) = kNaN;

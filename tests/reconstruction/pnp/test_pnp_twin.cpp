@@ -13,18 +13,18 @@ namespace {
 /// The observations that the twin gets: a few, or it takes too long.
 std::vector<PlainSighting> plain_sightings(const std::vector<CameraView>& views,
                                            const ObjectType& type) {
-  std::vector<PlainSighting> sightings;
+  std::vector<PlainSighting> measurements;
   for (std::size_t v = 0; v < views.size(); ++v) {
     for (const Observation& observation : views[v].observations) {
       for (std::size_t f = 0; f < type.features.size(); ++f) {
         if (type.features[f].key != observation.key) continue;
-        sightings.push_back({&views[v].lens, *views[v].T_world_cam, int(v), int(f),
-                             type.features[f].points(),
-                             std::get<SeenPoints>(observation.data).pixels});
+        measurements.push_back({&views[v].lens, *views[v].T_world_cam, int(v), int(f),
+                                type.features[f].points(),
+                                std::get<SeenPoints>(observation.data).pixels});
       }
     }
   }
-  return sightings;
+  return measurements;
 }
 
 std::vector<std::size_t> numbers_of(const ReconstructedObject& object,
@@ -50,16 +50,16 @@ TEST_CASE("PnP: the same objects as when every way to divide the sightings is tr
     auto views = cameras_around(random, 3, 0.5);
     const auto objects = scattered(random, knowledge.types(), 2, 0.09);
     look_at(views, objects, {.sigma_px = 0.2}, random);
-    const auto sightings = plain_sightings(views, type);
-    if (sightings.empty() || sightings.size() > 6) continue;
+    const auto measurements = plain_sightings(views, type);
+    if (measurements.empty() || measurements.size() > 6) continue;
     const Reconstruction result = reconstruct_pnp(views, knowledge);
-    const auto twins = plain_instances(sightings, 3.0);
+    const auto twins = plain_instances(measurements, 3.0);
     REQUIRE(result.objects.size() == twins.size());
     ++compared;
     several += twins.size() > 1;
     for (std::size_t i = 0; i < twins.size(); ++i) {
       const ReconstructedObject& found = result.objects[i];
-      CHECK(numbers_of(found, views) == twins[i].sightings);
+      CHECK(numbers_of(found, views) == twins[i].measurements);
       if (found.support.size() < 2) continue;  // a single marker may be flipped
       const PoseError error = pose_error(type, found.T_world_object, twins[i].T_world_object);
       CHECK(error.m < 5e-5);  // the library's loss is robust, the twin's is not

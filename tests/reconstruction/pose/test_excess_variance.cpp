@@ -6,7 +6,7 @@
 #include <random>
 #include <vector>
 
-namespace vantage::detail {
+namespace vantage::reconstruction::detail {
 namespace {
 
 /// Both coordinates of points with noise of different sigmas, and an error that all share.
@@ -42,4 +42,4 @@ TEST_CASE("the ratio that chance exceeds once in a thousand") {
   CHECK(std::abs(100 * unlikely_ratio(100) / 149.449 - 1) < 0.001);
 }
 
-}  // namespace vantage::detail
+}  // namespace vantage::reconstruction::detail

@@ -11,10 +11,10 @@
 namespace vantage::test {
 namespace {
 
-using detail::fit_pose;
-using detail::PointTerm;
-using detail::PoseFit;
-using detail::PoseTerm;
+using reconstruction::detail::fit_pose;
+using reconstruction::detail::PointTerm;
+using reconstruction::detail::PoseFit;
+using reconstruction::detail::PoseTerm;
 
 /// Residuals of points and poses, divided by sigma, from the definitions. With a loss, each term's
 /// are made smaller so that the sum of their squares is Cauchy's loss.
@@ -76,8 +76,9 @@ TEST_CASE("derivatives by the body's pose and by the camera's are difference quo
         numeric_derivatives([&](const Pose& p) { return off(T_world_cam, p); }, body.T_world_body);
     const auto by_camera =
         numeric_derivatives([&](const Pose& p) { return off(p, body.T_world_body); }, T_world_cam);
-    CHECK((detail::jacobian(term, body.T_world_body) - by_body).norm() < 1e-6 * by_body.norm());
-    CHECK((detail::camera_jacobian(term, body.T_world_body) - by_camera).norm() <
+    CHECK((reconstruction::detail::jacobian(term, body.T_world_body) - by_body).norm() <
+          1e-6 * by_body.norm());
+    CHECK((reconstruction::detail::camera_jacobian(term, body.T_world_body) - by_camera).norm() <
           1e-6 * by_camera.norm());
   }
 }
@@ -156,12 +157,12 @@ TEST_CASE("from a start behind the camera the pose is found or nothing, and neve
     const Eigen::Vector3d behind =
         body.T_world_body.translation() - 1.5 * T_cam_ref.rotation().row(2).transpose();
     const Pose start = Pose::from_rotation(body.T_world_body.rotation(), behind);
-    CHECK(std::isinf(detail::residuals_px(body.terms[0], start)[0]));
+    CHECK(std::isinf(reconstruction::detail::residuals_px(body.terms[0], start)[0]));
     const auto fit = fit_pose({body.terms.data(), 1}, {}, start, scene % 2 ? 3 : 0);
     if (!fit) continue;
     CHECK(fit->information.allFinite());
     CHECK(std::isfinite(fit->chi_square));
-    for (const double r : detail::residuals_px(body.terms[0], fit->T_ref_body)) {
+    for (const double r : reconstruction::detail::residuals_px(body.terms[0], fit->T_ref_body)) {
       CHECK(std::isfinite(r));
     }
     found += fit->rms_px < 1;
@@ -182,7 +183,7 @@ TEST_CASE("a lens that folds over far out shows no point there in its image") {
   const Eigen::Vector3d far_out(1.5, 0, 1);
   REQUIRE(lens.project(far_out).x() < 640);
   const PointTerm term{&lens, {}, {far_out}, {lens.project(far_out)}, 0.1};
-  CHECK(detail::residuals_px(term, {})[0] > 300);
+  CHECK(reconstruction::detail::residuals_px(term, {})[0] > 300);
 }
 
 TEST_CASE("no pose for what is not finite, for sigmas that are none, and for nothing at all") {
@@ -224,15 +225,16 @@ TEST_CASE("a covariance is the inverse of the information, and large where there
   const auto fit = fit_pose(body.terms, {}, body.T_world_body, 0);
   REQUIRE(fit);
   const Matrix6d inverse = fit->information.inverse();
-  CHECK((detail::covariance_of(fit->information) - inverse).norm() < 1e-5 * inverse.norm());
+  CHECK((reconstruction::detail::covariance_of(fit->information) - inverse).norm() <
+        1e-5 * inverse.norm());
 
   const double most = std::numbers::pi * std::numbers::pi;
-  const Matrix6d nothing = detail::covariance_of(Matrix6d::Zero());
+  const Matrix6d nothing = reconstruction::detail::covariance_of(Matrix6d::Zero());
   CHECK(nothing.diagonal().head<3>().isApprox(Eigen::Vector3d::Ones()));
   CHECK(nothing.diagonal().tail<3>().isApprox(Eigen::Vector3d::Constant(most)));
   Matrix6d half = Matrix6d::Zero();
   half.diagonal() << 1e6, 1e6, 1e6, 0, 1e4, 0;
-  const Matrix6d known = detail::covariance_of(half);
+  const Matrix6d known = reconstruction::detail::covariance_of(half);
   CHECK(known(0, 0) / 1e-6 == doctest::Approx(1).epsilon(1e-6));
   CHECK(known(4, 4) / 1e-4 == doctest::Approx(1).epsilon(1e-6));
   CHECK(known(3, 3) == doctest::Approx(most));

@@ -8,8 +8,8 @@
 namespace vantage::test {
 namespace {
 
-using detail::guess_poses;
-using detail::PoseGuess;
+using reconstruction::detail::PoseGuess;
+using reconstruction::detail::solve_pnp;
 
 struct SeenPointsOfBody {
   Pose T_cam_body;
@@ -21,9 +21,7 @@ struct SeenPointsOfBody {
       : T_cam_body(pose), points(on_body) {
     pixels = seen_marker(lens, pose, {}, std::move(on_body), sigma_px, random).pixels;
   }
-  std::vector<PoseGuess> guesses(const Lens& lens) const {
-    return guess_poses(lens, points, pixels);
-  }
+  std::vector<PoseGuess> guesses(const Lens& lens) const { return solve_pnp(lens, points, pixels); }
 };
 
 /// Of all guesses, how far the closest one is from the truth.

@@ -12,11 +12,11 @@
 namespace vantage::test {
 namespace {
 
-using detail::kOneVote;
-using detail::lattice_corners;
-using detail::VoteGrid;
-using detail::VotePlace;
-using detail::VoteTable;
+using reconstruction::detail::kOneVote;
+using reconstruction::detail::lattice_corners;
+using reconstruction::detail::VoteGrid;
+using reconstruction::detail::VotePlace;
+using reconstruction::detail::VoteTable;
 
 Eigen::Vector4d random_turn(Random& random) {
   Eigen::Vector4d q(normal(random), normal(random), normal(random), normal(random));

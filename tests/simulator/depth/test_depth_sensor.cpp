@@ -10,8 +10,8 @@
 #include "reference/random_boxes.hpp"
 #include "simulator/depth/depth_sensor.hpp"
 #include "support/expect_error.hpp"
-#include "vantage/raycore/scene_builder.hpp"
-#include "vantage/volume/classify.hpp"
+#include "vantage/raycore/advanced/scene_builder.hpp"
+#include "vantage/volume/advanced/classify.hpp"
 
 namespace vantage {
 namespace {

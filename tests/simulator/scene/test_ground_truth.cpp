@@ -1,7 +1,7 @@
 #include <doctest/doctest.h>
 
 #include "simulator/scene/ground_truth.hpp"
-#include "vantage/volume/classify.hpp"
+#include "vantage/volume/advanced/classify.hpp"
 
 namespace vantage {
 namespace {

@@ -9,9 +9,9 @@
 #include "reference/random_workcell.hpp"
 #include "support/expect_error.hpp"
 #include "support/scene_count.hpp"
-#include "vantage/volume/carve.hpp"
-#include "vantage/volume/classify.hpp"
-#include "vantage/volume/visibility.hpp"
+#include "vantage/volume/advanced/carve.hpp"
+#include "vantage/volume/advanced/classify.hpp"
+#include "vantage/volume/advanced/visibility.hpp"
 #include "volume/same_grid.hpp"
 
 namespace vantage {
@@ -30,15 +30,15 @@ std::vector<float> random_axis(Random& random, double first, double length) {
 
 /// Vertices at odd places, also between and beyond the image's pixels; depths without any order,
 /// with holes.
-DepthLattice random_lattice(Random& random, const Box& area) {
+VisibilityMesh random_lattice(Random& random, const Box& area) {
   const Eigen::Vector3d target = area.centre() + random.in_cube(0.05);
   const double distance = random.below(4) == 0 ? 0.05 : random.uniform(0.2, 0.6);  // or inside
   const PinholeCamera camera({61, 47, random.uniform(40, 120), random.uniform(40, 120), 30.2, 23.7},
                              Pose::looking_at(target + distance * random.direction(), target));
-  DepthLattice lattice{camera,
-                       random_axis(random, random.uniform(-10, 30), 50),
-                       random_axis(random, random.uniform(-10, 20), 40),
-                       {}};
+  VisibilityMesh lattice{camera,
+                         random_axis(random, random.uniform(-10, 30), 50),
+                         random_axis(random, random.uniform(-10, 20), 40),
+                         {}};
   const double roughness = random.below(2) == 0 ? 0.02 : 0.3;
   for (std::size_t n = 0; n < lattice.width() * lattice.height(); ++n) {
     const double depth = std::max(distance + random.uniform(-1, 1) * roughness, 0.01);
@@ -47,17 +47,17 @@ DepthLattice random_lattice(Random& random, const Box& area) {
   return lattice;
 }
 
-std::vector<DepthLattice> random_lattices(Random& random, const Box& area) {
-  std::vector<DepthLattice> lattices;
+std::vector<VisibilityMesh> random_lattices(Random& random, const Box& area) {
+  std::vector<VisibilityMesh> lattices;
   const std::uint32_t count = random.below(4);
   for (std::uint32_t i = 0; i < count; ++i) lattices.push_back(random_lattice(random, area));
   return lattices;
 }
 
 /// What a random workcell's new observer measures, as a mesh of any step.
-std::vector<DepthLattice> measured_lattices(const WorldModel& world, Random& random) {
+std::vector<VisibilityMesh> measured_lattices(const WorldModel& world, Random& random) {
   const auto scene = test::scene_with_foreign_box(world, random);
-  std::vector<DepthLattice> lattices;
+  std::vector<VisibilityMesh> lattices;
   for (const int step : {1, 3, 8}) {
     const PinholeCamera camera = test::random_observer(random);
     VisibilityOptions options;
@@ -75,7 +75,7 @@ struct CarveTally {
 };
 
 /// Compares a carved grid with its twin, voxel by voxel; known objects are `classify`'s.
-void tally_up(const StateGrid& grid, std::span<const DepthLattice> lattices,
+void tally_up(const StateGrid& grid, std::span<const VisibilityMesh> lattices,
               const StateGrid& objects_alone, CarveTally& tally) {
   test::for_each_voxel(grid.geometry(), [&](const Eigen::Vector3i& voxel) {
     const Eigen::Vector3d centre = grid.geometry().centre(voxel);
@@ -148,7 +148,7 @@ TEST_CASE("carving is asking, with lattices far wider than any image") {
     CAPTURE(seed);
     Random random(seed);
     const Box area = test::random_workcell_area();
-    std::vector<DepthLattice> lattices{random_lattice(random, area)};
+    std::vector<VisibilityMesh> lattices{random_lattice(random, area)};
     for (std::vector<float>* axis : {&lattices[0].columns, &lattices[0].rows}) {
       axis->front() = -30000;
       axis->back() = 40000;
@@ -171,7 +171,7 @@ TEST_CASE("carving a far away work area loses no precision") {
     auto lattices = measured_lattices(world, random);
     const Box area = test::random_workcell_area();
     const auto near = carve(lattices, GridGeometry::covering(area, 0.008), {});
-    for (DepthLattice& lattice : lattices) {
+    for (VisibilityMesh& lattice : lattices) {
       lattice.camera =
           lattice.camera.moved_to(Pose::from_translation(away) * lattice.camera.T_world_cam());
     }
@@ -196,7 +196,7 @@ TEST_CASE("what a lattice sees through a known object is reported as a conflict"
   const PinholeCamera camera({64, 48, 60, 60, 31.5, 23.5},
                              Pose::looking_at({0, 0, 0.5}, {0, 0, 0}));
   const auto far = std::make_shared<const DepthImage>(64, 48, std::vector<float>(64 * 48, 1.0f));
-  const std::vector<DepthLattice> lattices{*visibility_lattice({camera, far}, area)};
+  const std::vector<VisibilityMesh> lattices{*visibility_lattice({camera, far}, area)};
   const auto cube = std::make_shared<const TriangleMesh>(
       TriangleMesh::from_box(Box({-0.02, -0.02, 0.02}, {0.02, 0.02, 0.06})));
   const WorldModel world{{{"cube", cube, {}}}, {}, {}};
@@ -229,7 +229,7 @@ TEST_CASE("carving stops when asked to, and refuses bad lattices and objects wit
   CHECK(carve({}, geometry, {}, stopped) == nullptr);
 
   const PinholeCamera camera({64, 48, 60, 60, 31.5, 23.5}, {});
-  const std::vector<DepthLattice> bad{{camera, {0, 8}, {0, 8}, {1, 1, -1, 1}}};
+  const std::vector<VisibilityMesh> bad{{camera, {0, 8}, {0, 8}, {1, 1, -1, 1}}};
   test::expect_bad_input("depth", "", [&] { carve(bad, geometry, {}); });
   WorldModel world;
   world.objects.push_back({"nothing", nullptr, {}});

@@ -9,10 +9,10 @@
 #include "reference/random_workcell.hpp"
 #include "support/expect_error.hpp"
 #include "support/scene_count.hpp"
-#include "vantage/volume/carve.hpp"
-#include "vantage/volume/classify.hpp"
-#include "vantage/volume/shadow_filter.hpp"
-#include "vantage/volume/visibility.hpp"
+#include "vantage/volume/advanced/carve.hpp"
+#include "vantage/volume/advanced/classify.hpp"
+#include "vantage/volume/advanced/shadow_filter.hpp"
+#include "vantage/volume/advanced/visibility.hpp"
 #include "volume/make_grid.hpp"
 #include "volume/mesh_measures.hpp"
 
@@ -30,13 +30,13 @@ PinholeCamera above(double height) {
 }
 
 /// One cell over all of the image, at one depth.
-DepthLattice flat(const PinholeCamera& camera, float depth) {
+VisibilityMesh flat(const PinholeCamera& camera, float depth) {
   return {camera, {0, 99}, {0, 99}, {depth, depth, depth, depth}};
 }
 
-bool unseen(std::span<const DepthLattice> lattices, const Box& box, const Eigen::Vector3d& p) {
+bool unseen(std::span<const VisibilityMesh> lattices, const Box& box, const Eigen::Vector3d& p) {
   if (!box.contains(p)) return false;
-  for (const DepthLattice& lattice : lattices) {
+  for (const VisibilityMesh& lattice : lattices) {
     if (lattice.sees(p)) return false;
   }
   return true;
@@ -48,7 +48,7 @@ Box box_of(const GridGeometry& geometry) {
 
 /// Of some two thousand corners, the part that has unseen space within `reach` on the one side, and
 /// something else on the other.
-double corners_at_the_border(const TriangleMesh& mesh, std::span<const DepthLattice> lattices,
+double corners_at_the_border(const TriangleMesh& mesh, std::span<const VisibilityMesh> lattices,
                              const Box& box, double reach) {
   std::size_t count = 0, asked = 0;
   for (std::size_t i = 0; i < mesh.vertices().size(); i += 1 + mesh.vertices().size() / 2000) {
@@ -66,12 +66,12 @@ double corners_at_the_border(const TriangleMesh& mesh, std::span<const DepthLatt
   return double(count) / double(asked);
 }
 
-double carved_m3(std::span<const DepthLattice> lattices, const GridGeometry& geometry) {
+double carved_m3(std::span<const VisibilityMesh> lattices, const GridGeometry& geometry) {
   return carve(lattices, geometry, {})->volume_m3(VoxelState::shadow);
 }
 
 /// The voxels whose centres are inside the mesh are those that carving leaves.
-void expect_same_sides(const TriangleMesh& mesh, std::span<const DepthLattice> lattices,
+void expect_same_sides(const TriangleMesh& mesh, std::span<const VisibilityMesh> lattices,
                        const GridGeometry& geometry) {
   const auto solid = std::make_shared<const TriangleMesh>(mesh);
   const auto inside = classify({{{"unseen", solid, {}}}, {}, {}}, geometry);
@@ -85,7 +85,7 @@ void expect_same_sides(const TriangleMesh& mesh, std::span<const DepthLattice> l
   CHECK(differences == 0);
 }
 
-void expect_surface(const TriangleMesh& mesh, std::span<const DepthLattice> lattices,
+void expect_surface(const TriangleMesh& mesh, std::span<const VisibilityMesh> lattices,
                     const GridGeometry& geometry, double expected_m3, double tolerance) {
   CHECK(test::closed(mesh));
   CHECK(mesh.dropped_degenerate() == 0);
@@ -98,10 +98,10 @@ void expect_surface(const TriangleMesh& mesh, std::span<const DepthLattice> latt
   CHECK(corners_at_the_border(mesh, lattices, box, 0.3 * voxel) > 0.85);
 }
 
-std::vector<DepthLattice> random_lattices(std::uint32_t seed, double subpixel_px) {
+std::vector<VisibilityMesh> random_lattices(std::uint32_t seed, double subpixel_px) {
   Random random(seed);
   const auto scene = test::scene_with_foreign_box(test::random_workcell(seed), random);
-  std::vector<DepthLattice> lattices;
+  std::vector<VisibilityMesh> lattices;
   for (const int step : {2, 5}) {
     const PinholeCamera camera = test::random_observer(random);
     VisibilityOptions options;
@@ -150,7 +150,7 @@ TEST_CASE("without lattices the unseen surface is the box, to the rounding of fl
 
 TEST_CASE("the unseen surface lies on a lattice's planes to a small part of a voxel") {
   const PinholeCamera camera = above(0.6);
-  const std::vector<DepthLattice> lattices{flat(camera, 0.537f)};  // at a height of 63 mm
+  const std::vector<VisibilityMesh> lattices{flat(camera, 0.537f)};  // at a height of 63 mm
   const GridGeometry geometry = GridGeometry::covering(kSmallArea, 0.005);
   const TriangleMesh mesh = unseen_surface(lattices, geometry);
   expect_surface(mesh, lattices, geometry, 0.2 * 0.24 * 0.063, 0.015);
@@ -169,9 +169,9 @@ TEST_CASE("the unseen surface lies on a lattice's planes to a small part of a vo
 
 TEST_CASE("the unseen surface has the walls of holes and of the image's border") {
   const PinholeCamera camera = above(0.5);
-  DepthLattice lattice{camera, {20, 40, 60, 80}, {10, 50, 90}, std::vector<float>(12, 1.0f)};
+  VisibilityMesh lattice{camera, {20, 40, 60, 80}, {10, 50, 90}, std::vector<float>(12, 1.0f)};
   lattice.depth[0] = DepthImage::kUnknown;  // the first cell is a hole
-  const std::vector<DepthLattice> lattices{lattice};
+  const std::vector<VisibilityMesh> lattices{lattice};
   const GridGeometry geometry = GridGeometry::covering(kSmallArea, 0.005);
   const TriangleMesh mesh = unseen_surface(lattices, geometry);
   expect_surface(mesh, lattices, geometry, carved_m3(lattices, geometry), 0.01);
@@ -214,11 +214,11 @@ TEST_CASE("of the unseen, the surface has what a filter left") {
     const auto carved = carve(lattices, geometry, {});
     // A filter that removes nothing changes nothing.
     const TriangleMesh plain = unseen_surface(lattices, geometry);
-    const TriangleMesh same = unseen_surface(lattices, *opened_shadow(*carved, 0));
+    const TriangleMesh same = unseen_surface(lattices, *morphological_open(*carved, 0));
     CHECK(same.vertices() == plain.vertices());
     CHECK(same.triangles() == plain.triangles());
 
-    const auto opened = opened_shadow(*carved, 2);
+    const auto opened = morphological_open(*carved, 2);
     const TriangleMesh mesh = unseen_surface(lattices, *opened);
     CHECK(test::closed(mesh));
     // Inside are the voxels' centres that carving and the filter leave, and of what carving leaves
@@ -242,7 +242,7 @@ TEST_CASE(
     "a lattice that sees all leaves no surface, threads make no difference, errors are told") {
   const GridGeometry geometry =
       GridGeometry::covering(Box({-0.05, -0.05, 0}, {0.05, 0.05, 0.1}), 0.01);
-  const std::vector<DepthLattice> all{flat(above(0.6), 2)};
+  const std::vector<VisibilityMesh> all{flat(above(0.6), 2)};
   CHECK(unseen_surface(all, geometry).empty());
 
   const tbb::global_control allow(tbb::global_control::max_allowed_parallelism, 8);
@@ -257,7 +257,7 @@ TEST_CASE(
   CHECK(one.vertices() == many.vertices());
   CHECK(one.triangles() == many.triangles());
 
-  const std::vector<DepthLattice> bad{flat(above(0.6), -1)};
+  const std::vector<VisibilityMesh> bad{flat(above(0.6), -1)};
   test::expect_bad_input("depth", "", [&] { unseen_surface(bad, geometry); });
 }
 

@@ -1,5 +1,5 @@
 // The two ways to subtract what was seen from the work area, held together: what rays meet in a
-// SeenSpace, and the exported mesh.
+// UnobservedSpace, and the exported mesh.
 
 #include <doctest/doctest.h>
 
@@ -10,11 +10,11 @@
 #include "reference/noisy_depth.hpp"
 #include "reference/random_workcell.hpp"
 #include "support/scene_count.hpp"
-#include "vantage/raycore/scene_builder.hpp"
-#include "vantage/raycore/unobserved_space.hpp"
-#include "vantage/volume/carve.hpp"
-#include "vantage/volume/shadow_filter.hpp"
-#include "vantage/volume/visibility.hpp"
+#include "vantage/raycore/advanced/scene_builder.hpp"
+#include "vantage/raycore/advanced/unobserved_space.hpp"
+#include "vantage/volume/advanced/carve.hpp"
+#include "vantage/volume/advanced/shadow_filter.hpp"
+#include "vantage/volume/advanced/visibility.hpp"
 
 namespace vantage {
 namespace {
@@ -24,9 +24,9 @@ using test::Random;
 constexpr double kVoxel = 0.006;
 
 /// What two cameras saw of a random work cell.
-std::vector<DepthLattice> seen_lattices(std::uint32_t seed, Random& random, bool with_noise) {
+std::vector<VisibilityMesh> seen_lattices(std::uint32_t seed, Random& random, bool with_noise) {
   const auto scene = test::scene_with_foreign_box(test::random_workcell(seed), random);
-  std::vector<DepthLattice> lattices;
+  std::vector<VisibilityMesh> lattices;
   for (int i = 0; i < 2; ++i) {
     const PinholeCamera camera = test::random_observer(random);
     const auto depth = with_noise ? test::noisy_depth(*scene, camera, random)
@@ -45,7 +45,7 @@ struct PixelTally {
 };
 
 /// Compares what the pixels of a view meet.
-void compare(const SeenSpace& space, const TriangleMesh& mesh, const PinholeCamera& view,
+void compare(const UnobservedSpace& space, const TriangleMesh& mesh, const PinholeCamera& view,
              PixelTally& tally) {
   SceneBuilder builder;
   builder.add_mesh(mesh);
@@ -100,15 +100,16 @@ PixelTally compare_cells(bool filtered) {
   const GridGeometry geometry = GridGeometry::covering(test::random_workcell_area(), kVoxel);
   for (std::uint32_t seed = 0; seed < test::scene_count(12); ++seed) {
     Random random(seed);
-    const std::vector<DepthLattice> lattices = seen_lattices(seed, random, filtered);
+    const std::vector<VisibilityMesh> lattices = seen_lattices(seed, random, filtered);
     const PinholeCamera view = random_view(random);
     if (filtered) {
-      const auto opened = opened_shadow(*carve(lattices, geometry, {}), 1);
+      const auto opened = morphological_open(*carve(lattices, geometry, {}), 1);
       const TriangleMesh shell = shell_around_shadow(*opened);
-      compare(SeenSpace(lattices, geometry.box(), &shell), unseen_surface(lattices, *opened), view,
-              tally);
+      compare(UnobservedSpace(lattices, geometry.box(), &shell), unseen_surface(lattices, *opened),
+              view, tally);
     } else {
-      compare(SeenSpace(lattices, geometry.box()), unseen_surface(lattices, geometry), view, tally);
+      compare(UnobservedSpace(lattices, geometry.box()), unseen_surface(lattices, geometry), view,
+              tally);
     }
   }
   return tally;

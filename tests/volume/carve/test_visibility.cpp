@@ -8,7 +8,7 @@
 #include "reference/random_workcell.hpp"
 #include "support/expect_error.hpp"
 #include "support/scene_count.hpp"
-#include "vantage/volume/visibility.hpp"
+#include "vantage/volume/advanced/visibility.hpp"
 
 namespace vantage {
 namespace {
@@ -45,7 +45,7 @@ VisibilityOptions options_of(int step_px, double offset_sigmas = 0) {
   return options;
 }
 
-float at(const DepthLattice& lattice, int u, int v) {
+float at(const VisibilityMesh& lattice, int u, int v) {
   for (std::size_t j = 0; j < lattice.height(); ++j)
     for (std::size_t i = 0; i < lattice.width(); ++i)
       if (lattice.columns[i] == float(u) && lattice.rows[j] == float(v))
@@ -56,7 +56,7 @@ float at(const DepthLattice& lattice, int u, int v) {
 
 /// With every pixel a vertex, so that it can be asked for any of them; near enough that the work
 /// area fills the image.
-DepthLattice full_lattice(const PosedDepth& image, VisibilityOptions options = options_of(1)) {
+VisibilityMesh full_lattice(const PosedDepth& image, VisibilityOptions options = options_of(1)) {
   const auto lattice = visibility_lattice(image, kArea, options);
   REQUIRE(lattice);
   REQUIRE(lattice->width() == kWidth);
@@ -159,7 +159,7 @@ TEST_CASE("holes in a plane are filled with the plane") {
     const auto image = image_of(kNear, [&](int u, int v) {
       return random.below(one_of) == 0 ? tilted(u, v) : double(kUnknown);
     });
-    const DepthLattice lattice = full_lattice(image);
+    const VisibilityMesh lattice = full_lattice(image);
     std::size_t unknown = 0;
     for (int v = 0; v < kHeight; ++v) {
       for (int u = 0; u < kWidth; ++u) {
@@ -199,7 +199,7 @@ TEST_CASE("what is filled between a near and a far side is nearer to what is nea
   const auto image = image_of(kNear, [](int u, int) {
     return u <= 30 ? 0.5 : u >= 40 ? 1.0 : double(kUnknown);
   });
-  const DepthLattice lattice = full_lattice(image);
+  const VisibilityMesh lattice = full_lattice(image);
   for (int u = 30; u <= 40; ++u) {  // linear in inverse depth
     CHECK(1 / double(at(lattice, u, 20)) == doctest::Approx(2 - 0.1 * (u - 30)).epsilon(1e-6));
   }
@@ -211,7 +211,7 @@ TEST_CASE("from one side a surface goes on towards the camera, never away from i
     const auto image = image_of(kNear, [&](int u, int) {
       return u <= 40 ? 1 / (2 + sign * slope * (u - 40)) : double(kUnknown);
     });
-    const DepthLattice lattice = full_lattice(image);
+    const VisibilityMesh lattice = full_lattice(image);
     for (int u = 41; u <= 40 + 24; ++u) {
       const double expected = sign > 0 ? 1 / (2 + slope * (u - 40)) : 0.5;
       CHECK(double(at(lattice, u, 20)) == doctest::Approx(expected).epsilon(1e-5));
@@ -226,7 +226,7 @@ TEST_CASE("nothing is filled in out of reach, and without a measurement there is
   });
   auto options = options_of(1);
   options.fill_reach_px = 5;
-  const DepthLattice lattice = full_lattice(spot, options);
+  const VisibilityMesh lattice = full_lattice(spot, options);
   for (int v = 0; v < kHeight; ++v)
     for (int u = 0; u < kWidth; ++u) {
       const bool near = std::max(std::abs(u - 40), std::abs(v - 30)) <= 6;

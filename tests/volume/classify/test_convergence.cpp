@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "reference/random_boxes.hpp"
-#include "vantage/volume/classify.hpp"
+#include "vantage/volume/advanced/classify.hpp"
 #include "volume/volume_modes.hpp"
 
 namespace vantage {

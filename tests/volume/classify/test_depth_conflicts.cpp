@@ -6,8 +6,8 @@
 #include "reference/plain_classify.hpp"
 #include "reference/random_boxes.hpp"
 #include "reference/thesis_volume.hpp"
-#include "vantage/raycore/scene_builder.hpp"
-#include "vantage/volume/classify.hpp"
+#include "vantage/raycore/advanced/scene_builder.hpp"
+#include "vantage/volume/advanced/classify.hpp"
 #include "volume/small_grid.hpp"
 
 namespace vantage {

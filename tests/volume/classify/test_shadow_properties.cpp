@@ -6,7 +6,7 @@
 
 #include "reference/noisy_depth.hpp"
 #include "reference/random_workcell.hpp"
-#include "vantage/volume/classify.hpp"
+#include "vantage/volume/advanced/classify.hpp"
 #include "volume/same_grid.hpp"
 #include "volume/volume_modes.hpp"
 
@@ -66,7 +66,7 @@ WorldModel moved(WorldModel world, const Eigen::Vector3d& shift) {
       object.T_world_object = move * on_lattice(object.T_world_object);
     }
   }
-  for (Observer& observer : world.cameras) {
+  for (DepthCamera& observer : world.cameras) {
     const Pose pose = move * on_lattice(observer.camera.T_world_cam());
     observer.camera = observer.camera.moved_to(pose);
   }
@@ -81,9 +81,9 @@ TEST_CASE("adding a camera never adds shadow, and what is free stays free") {
     for (std::uint32_t seed = 0; seed < 6; ++seed) {
       CAPTURE(seed);
       WorldModel world = random_world(seed);
-      const std::vector<Observer> cameras = std::exchange(world.cameras, {});
+      const std::vector<DepthCamera> cameras = std::exchange(world.cameras, {});
       auto before = classify(world, exact_grid(), options);
-      for (const Observer& camera : cameras) {
+      for (const DepthCamera& camera : cameras) {
         world.cameras.push_back(camera);
         const auto after = classify(world, exact_grid(), options);
         CHECK(added_shadow(*before, *after) == 0);

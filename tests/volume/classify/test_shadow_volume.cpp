@@ -3,7 +3,7 @@
 #include "reference/noisy_depth.hpp"
 #include "reference/random_workcell.hpp"
 #include "support/expect_error.hpp"
-#include "vantage/volume/classify.hpp"
+#include "vantage/volume/advanced/classify.hpp"
 #include "vantage/volume/shadow_volume.hpp"
 #include "volume/same_grid.hpp"
 #include "volume/small_grid.hpp"
@@ -25,7 +25,7 @@ class Follower {
   /// A new depth image, or none, from one camera, which may have moved before.
   void change_something() {
     const std::size_t i = random_.below(std::uint32_t(world_.cameras.size()));
-    Observer& observer = world_.cameras[i];
+    DepthCamera& observer = world_.cameras[i];
     const bool moves = random_.below(3) == 0;
     if (moves) {
       const Pose pose = test::random_observer(random_).T_world_cam();
@@ -111,7 +111,7 @@ TEST_CASE("a volume that was told to stop stays without a grid") {
 
 TEST_CASE("a change that was stopped leaves no grid until it is done again") {
   const WorldModel world = test::random_workcell(1);
-  const Observer& camera = world.cameras[0];
+  const DepthCamera& camera = world.cameras[0];
   const Pose& pose = camera.camera.T_world_cam();
   const StopToken stop;
   stop.cancel();

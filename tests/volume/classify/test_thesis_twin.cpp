@@ -3,7 +3,7 @@
 #include "reference/random_boxes.hpp"
 #include "reference/thesis_volume.hpp"
 #include "support/scene_count.hpp"
-#include "vantage/volume/classify.hpp"
+#include "vantage/volume/advanced/classify.hpp"
 #include "volume/volume_modes.hpp"
 
 namespace vantage {

@@ -5,7 +5,7 @@
 #include "reference/random_workcell.hpp"
 #include "reference/thesis_volume.hpp"
 #include "support/scene_count.hpp"
-#include "vantage/volume/classify.hpp"
+#include "vantage/volume/advanced/classify.hpp"
 
 namespace vantage {
 namespace {

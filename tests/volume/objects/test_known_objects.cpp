@@ -2,7 +2,7 @@
 
 #include "reference/random_boxes.hpp"
 #include "reference/thesis_volume.hpp"
-#include "vantage/volume/classify.hpp"
+#include "vantage/volume/advanced/classify.hpp"
 #include "volume/same_grid.hpp"
 #include "volume/small_grid.hpp"
 #include "volume/volume_modes.hpp"

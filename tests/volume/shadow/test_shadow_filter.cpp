@@ -7,8 +7,8 @@
 #include <limits>
 
 #include "support/expect_error.hpp"
-#include "vantage/volume/shadow_filter.hpp"
-#include "vantage/volume/shadow_regions.hpp"
+#include "vantage/volume/advanced/shadow_filter.hpp"
+#include "vantage/volume/advanced/shadow_regions.hpp"
 #include "volume/make_grid.hpp"
 
 namespace vantage {
@@ -130,7 +130,7 @@ TEST_CASE("opened shadow is what cubes of shadow fit around") {
   const auto grid = mixed_grid();
   for (const int radius : {0, 1, 2, 3}) {
     CAPTURE(radius);
-    const auto opened = opened_shadow(*grid, radius);
+    const auto opened = morphological_open(*grid, radius);
     expect_filtered(*grid, *opened,
                     [&](const Eigen::Vector3i& voxel) { return fits(*grid, voxel, radius); });
     CHECK((radius == 0 || opened->count(VoxelState::shadow) < grid->count(VoxelState::shadow)));
@@ -140,11 +140,11 @@ TEST_CASE("opened shadow is what cubes of shadow fit around") {
 TEST_CASE("opening takes layers on the floor away, and leaves what is thick up to the border") {
   const GridGeometry geometry = geometry_of(24, 24, 24);
   const auto layer = shadow_where(geometry, box({0, 0, 0}, {24, 24, 2}));
-  CHECK(opened_shadow(*layer, 1)->count(VoxelState::shadow) == 0);
+  CHECK(morphological_open(*layer, 1)->count(VoxelState::shadow) == 0);
   const auto thick = shadow_where(geometry, box({0, 0, 0}, {24, 24, 3}));
-  CHECK(opened_shadow(*thick, 1)->count(VoxelState::shadow) == 24 * 24 * 3);
+  CHECK(morphological_open(*thick, 1)->count(VoxelState::shadow) == 24 * 24 * 3);
   const auto all = shadow_where(geometry, [](const Eigen::Vector3i&) { return true; });
-  CHECK(opened_shadow(*all, 4)->count(VoxelState::shadow) == geometry.voxel_count());
+  CHECK(morphological_open(*all, 4)->count(VoxelState::shadow) == geometry.voxel_count());
 }
 
 TEST_CASE("large shadow is that of the regions of at least a volume") {
@@ -152,18 +152,18 @@ TEST_CASE("large shadow is that of the regions of at least a volume") {
   const ShadowRegions regions(*grid);
   REQUIRE(regions.list().size() > 5);
   const double voxel_m3 = grid->geometry().voxel_volume_m3();
-  for (const double least_voxels : {0.0, 1.5, 50.0, 109.0, 1e6}) {
-    CAPTURE(least_voxels);
-    const auto large = large_shadow(*grid, least_voxels * voxel_m3);
+  for (const double min_voxels : {0.0, 1.5, 50.0, 109.0, 1e6}) {
+    CAPTURE(min_voxels);
+    const auto large = remove_small_components(*grid, min_voxels * voxel_m3);
     expect_filtered(*grid, *large, [&](const Eigen::Vector3i& voxel) {
       const auto label = std::size_t(regions.label(voxel));
-      return double(regions.list()[label - 1].voxels) >= least_voxels;
+      return double(regions.list()[label - 1].voxels) >= min_voxels;
     });
   }
   // The plate of 6 × 6 × 3 goes between 107 and 109 voxels.
   const Eigen::Vector3i in_plate(4, 4, 21);
-  CHECK(large_shadow(*grid, 107.5 * voxel_m3)->at(in_plate) == VoxelState::shadow);
-  CHECK(large_shadow(*grid, 108.5 * voxel_m3)->at(in_plate) == VoxelState::free);
+  CHECK(remove_small_components(*grid, 107.5 * voxel_m3)->at(in_plate) == VoxelState::shadow);
+  CHECK(remove_small_components(*grid, 108.5 * voxel_m3)->at(in_plate) == VoxelState::free);
 }
 
 TEST_CASE("shadow filters: threads make no difference, and bad sizes are refused") {
@@ -171,7 +171,8 @@ TEST_CASE("shadow filters: threads make no difference, and bad sizes are refused
   const auto grid = mixed_grid();
   const auto at_threads = [&](int threads) {
     tbb::task_arena arena(threads);
-    return arena.execute([&] { return large_shadow(*opened_shadow(*grid, 1), 1e-4); });
+    return arena.execute(
+        [&] { return remove_small_components(*morphological_open(*grid, 1), 1e-4); });
   };
   const auto one = at_threads(1), many = at_threads(8);
   std::size_t differences = 0;
@@ -181,11 +182,12 @@ TEST_CASE("shadow filters: threads make no difference, and bad sizes are refused
   CHECK(differences == 0);
   CHECK(one->count(VoxelState::shadow) > 0);
   for (const int bad : {-1, 65}) {
-    test::expect_bad_input("radius_voxels", "expected 0 to 64", [&] { opened_shadow(*grid, bad); });
+    test::expect_bad_input("radius_voxels", "expected 0 to 64",
+                           [&] { morphological_open(*grid, bad); });
   }
   for (const double bad : {-1e-9, std::nan(""), std::numeric_limits<double>::infinity()}) {
-    test::expect_bad_input("least_m3", "expected a finite volume",
-                           [&] { large_shadow(*grid, bad); });
+    test::expect_bad_input("min_m3", "expected a finite volume",
+                           [&] { remove_small_components(*grid, bad); });
   }
 }
 

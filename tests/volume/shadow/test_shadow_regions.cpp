@@ -3,7 +3,7 @@
 #include <tbb/task_arena.h>
 
 #include "reference/plain_regions.hpp"
-#include "vantage/volume/shadow_regions.hpp"
+#include "vantage/volume/advanced/shadow_regions.hpp"
 #include "volume/make_grid.hpp"
 
 namespace vantage {

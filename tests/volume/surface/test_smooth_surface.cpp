@@ -5,8 +5,8 @@
 #include <cmath>
 #include <utility>
 
-#include "vantage/volume/smooth_surface.hpp"
-#include "vantage/volume/voxel_surface.hpp"
+#include "vantage/volume/advanced/smooth_surface.hpp"
+#include "vantage/volume/advanced/voxel_surface.hpp"
 #include "volume/make_grid.hpp"
 #include "volume/mesh_measures.hpp"
 

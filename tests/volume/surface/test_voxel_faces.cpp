@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "vantage/volume/voxel_surface.hpp"
+#include "vantage/volume/advanced/voxel_surface.hpp"
 #include "volume/make_grid.hpp"
 #include "volume/mesh_measures.hpp"
 

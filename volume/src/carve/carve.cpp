@@ -1,4 +1,4 @@
-#include "vantage/volume/carve.hpp"
+#include "vantage/volume/advanced/carve.hpp"
 
 #include <tbb/parallel_for.h>
 
@@ -7,7 +7,7 @@
 #include "objects/known_objects.hpp"
 
 namespace vantage {
-namespace detail {
+namespace volume::detail {
 namespace {
 
 /// What one lattice says of the grid, part by part, as a camera whose sight ends at its surface.
@@ -50,11 +50,11 @@ class LatticeCarver {
 
   const LatticeView& lattice_;
   const GridFrame& frame_;
-  Sight& sight_;
+  CameraVisibility& sight_;
   DepthEvidence& depth_;
 };
 
-CameraEvidence carved_by(const DepthLattice& lattice, const Pose& T_grid_world,
+CameraEvidence carved_by(const VisibilityMesh& lattice, const Pose& T_grid_world,
                          const GridFrame& frame, const StopToken& stop) {
   CameraEvidence evidence(lattice.camera, frame.layout);
   evidence.depth.emplace(frame.layout);
@@ -69,23 +69,23 @@ CameraEvidence carved_by(const DepthLattice& lattice, const Pose& T_grid_world,
 }
 
 }  // namespace
-}  // namespace detail
+}  // namespace volume::detail
 
-std::shared_ptr<const StateGrid> carve(std::span<const DepthLattice> lattices,
+std::shared_ptr<const StateGrid> carve(std::span<const VisibilityMesh> lattices,
                                        const GridGeometry& geometry, const WorldModel& known,
                                        const StopToken& stop) {
-  for (const DepthLattice& lattice : lattices) lattice.check();
-  detail::check_meshes(known);
-  const detail::GridFrame frame(geometry);
+  for (const VisibilityMesh& lattice : lattices) lattice.check();
+  volume::detail::check_meshes(known);
+  const volume::detail::GridFrame frame(geometry);
   const Pose T_grid_world = Pose::from_translation(-geometry.origin());
   stop.expect(lattices.size() * frame.layout.chunk_count());
-  const detail::KnownObjects objects(known, frame, T_grid_world, stop);
-  std::vector<detail::CameraEvidence> evidence;
-  for (const DepthLattice& lattice : lattices) {
-    evidence.push_back(detail::carved_by(lattice, T_grid_world, frame, stop));
+  const volume::detail::KnownObjects objects(known, frame, T_grid_world, stop);
+  std::vector<volume::detail::CameraEvidence> evidence;
+  for (const VisibilityMesh& lattice : lattices) {
+    evidence.push_back(volume::detail::carved_by(lattice, T_grid_world, frame, stop));
   }
   if (stop.stop_requested()) return nullptr;
-  return detail::combine(geometry, objects, evidence, false);
+  return volume::detail::combine(geometry, objects, evidence, false);
 }
 
 }  // namespace vantage

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cstring>
 
-#include "vantage/raycore/multiversion.hpp"
+#include "vantage/raycore/detail/multiversion.hpp"
 
-namespace vantage::detail {
+namespace vantage::volume::detail {
 namespace {
 
 /// A number for each voxel of a layer.
@@ -148,4 +148,4 @@ LayerSeen compare_layer(const LatticeAxis& columns, const LatticeAxis& rows,
   return {to_bits(covered), to_bits(seen)};
 }
 
-}  // namespace vantage::detail
+}  // namespace vantage::volume::detail

@@ -8,7 +8,7 @@
 
 #include "grid/blocks.hpp"
 
-namespace vantage::detail {
+namespace vantage::volume::detail {
 
 /// The columns or rows of a lattice. Coordinates count from the first one, in pixels, or in larger
 /// units where an axis is longer than any image.
@@ -21,7 +21,7 @@ struct LatticeAxis {
 
   explicit LatticeAxis(std::span<const float> pixels)
       : first(double(pixels.front())),
-        per_pixel(std::min(1.0, kMostUnits / (double(pixels.back()) - first))) {
+        per_pixel(std::min(1.0, kMaxUnits / (double(pixels.back()) - first))) {
     for (const float pixel : pixels) vertices.push_back((double(pixel) - first) * per_pixel);
     length = vertices.back();
     for (std::size_t i = 1; i < vertices.size(); ++i) {
@@ -38,7 +38,7 @@ struct LatticeAxis {
   }
 
  private:
-  static constexpr double kMostUnits = 16000;
+  static constexpr double kMaxUnits = 16000;
 };
 
 /// 8 × 8 voxels of a block, those of one x: voxel 8 y + z.
@@ -53,7 +53,7 @@ struct LayerOnImage {
 /// One bit for each voxel of a layer.
 struct LayerSeen {
   std::uint64_t covered;  ///< the centre is in the lattice's rectangle
-  std::uint64_t seen;     ///< and in front of its surface, as `DepthLattice::sees` has it
+  std::uint64_t seen;     ///< and in front of its surface, as `VisibilityMesh::sees` has it
 };
 
 /// Cells [i0, i1] × [j0, j1] of a lattice.
@@ -68,4 +68,4 @@ LayerSeen compare_layer(const LatticeAxis& columns, const LatticeAxis& rows,
                         const LatticeCells& cells, const double* inverse_depth,
                         const LayerOnImage& layer);
 
-}  // namespace vantage::detail
+}  // namespace vantage::volume::detail

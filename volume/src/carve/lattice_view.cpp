@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-namespace vantage::detail {
+namespace vantage::volume::detail {
 namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
@@ -13,7 +13,7 @@ constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr DepthRange kAnyDepth = {1e-9, 1e30};
 
 /// Over more cells than these, their planes cost more than they save.
-constexpr int kMostPlaneCells = 25;
+constexpr int kMaxPlaneCells = 25;
 
 /// The lattice's camera with the axes' units as pixels, so that the lattice just fits the image.
 PinholeCamera camera_of_units(const PinholeCamera& camera, const Pose& T_grid_world,
@@ -53,7 +53,7 @@ struct LatticeView::BoxOnImage {
   }
 };
 
-LatticeView::LatticeView(const DepthLattice& lattice, const Pose& T_grid_world,
+LatticeView::LatticeView(const VisibilityMesh& lattice, const Pose& T_grid_world,
                          const GridFrame& frame)
     : frame_(frame),
       columns_(lattice.columns),
@@ -67,7 +67,7 @@ LatticeView::LatticeView(const DepthLattice& lattice, const Pose& T_grid_world,
   build_pyramids(lattice);
 }
 
-void LatticeView::build_pyramids(const DepthLattice& lattice) {
+void LatticeView::build_pyramids(const VisibilityMesh& lattice) {
   const std::size_t width = lattice.width(), cells_x = width - 1, cells_y = lattice.height() - 1;
   std::vector<float> nearest(cells_x * cells_y), farthest(nearest.size());
   for (std::size_t j = 0; j < cells_y; ++j) {
@@ -106,7 +106,7 @@ RangeSeen LatticeView::ask(const CellRange& blocks) const {
     answer.seen = false;
   } else if (box.z_max < double(nearest_.min_over(c.i0, c.i1, c.j0, c.j1))) {
     answer.seen = true;
-  } else if (box.z_min > 0 && c.count() <= kMostPlaneCells) {
+  } else if (box.z_min > 0 && c.count() <= kMaxPlaneCells) {
     answer.seen = ask_planes(c, extent, margin_m);
   }
   // What is beyond the rectangle is not seen, wherever the surface is.
@@ -230,4 +230,4 @@ double LatticeView::depth_in_seen_m(const Eigen::Vector3d& p_grid) const {
   return std::min((1 - plane.dot(on_image)) / gradient, sides);
 }
 
-}  // namespace vantage::detail
+}  // namespace vantage::volume::detail

@@ -7,10 +7,10 @@
 #include "carve/lattice_layer.hpp"
 #include "grid/grid_frame.hpp"
 #include "grid/hierarchical_z.hpp"
-#include "vantage/raycore/box_projector.hpp"
-#include "vantage/raycore/visibility_mesh.hpp"
+#include "vantage/raycore/advanced/visibility_mesh.hpp"
+#include "vantage/raycore/detail/box_projector.hpp"
 
-namespace vantage::detail {
+namespace vantage::volume::detail {
 
 /// What a lattice says of a block's voxels.
 struct BlockSeen {
@@ -25,13 +25,13 @@ struct RangeSeen {
 
 /// A depth lattice prepared for comparison with voxels, in the grid's frame. Immutable.
 ///
-/// Single voxels are compared in double, as `DepthLattice::sees` does, and get the same answer but
-/// for rounding; ranges are decided by certified bounds.
+/// Single voxels are compared in double, as `VisibilityMesh::sees` does, and get the same answer
+/// but for rounding; ranges are decided by certified bounds.
 class LatticeView {
  public:
   /// @param lattice valid.
   /// @param T_grid_world where the grid's frame is.
-  LatticeView(const DepthLattice& lattice, const Pose& T_grid_world, const GridFrame& frame);
+  LatticeView(const VisibilityMesh& lattice, const Pose& T_grid_world, const GridFrame& frame);
 
   RangeSeen ask(const CellRange& blocks) const;
   BlockSeen compare(const Eigen::Vector3i& block) const;
@@ -44,7 +44,7 @@ class LatticeView {
  private:
   struct BoxOnImage;
 
-  void build_pyramids(const DepthLattice& lattice);
+  void build_pyramids(const VisibilityMesh& lattice);
   LatticeCells cells_under(const ImageRect& rect) const;
   std::optional<bool> ask_planes(const LatticeCells& cells, const Extent& box,
                                  double margin_m) const;
@@ -62,4 +62,4 @@ class LatticeView {
   MinPyramid nearest_, negative_farthest_;  ///< by cell; ∓infinity where there is none
 };
 
-}  // namespace vantage::detail
+}  // namespace vantage::volume::detail

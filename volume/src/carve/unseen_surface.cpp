@@ -10,10 +10,10 @@
 #include "grid/state_grid_impl.hpp"
 #include "shadow/shell_voxels.hpp"
 #include "surface/field_surface.hpp"
-#include "vantage/volume/carve.hpp"
+#include "vantage/volume/advanced/carve.hpp"
 
 namespace vantage {
-namespace detail {
+namespace volume::detail {
 namespace {
 
 constexpr int kFieldBand = 2;
@@ -22,10 +22,11 @@ constexpr float kCornerMargin = 0.05f;  // voxels: no corner of the mesh sits on
 /// How far outside of the unseen space voxels' centres are, in voxels.
 class UnseenField {
  public:
-  UnseenField(std::span<const DepthLattice> lattices, const GridGeometry& geometry)
+  UnseenField(std::span<const VisibilityMesh> lattices, const GridGeometry& geometry)
       : frame_(geometry), size_(geometry.size()) {
     const Pose T_grid_world = Pose::from_translation(-geometry.origin());
-    for (const DepthLattice& lattice : lattices) views_.emplace_back(lattice, T_grid_world, frame_);
+    for (const VisibilityMesh& lattice : lattices)
+      views_.emplace_back(lattice, T_grid_world, frame_);
   }
 
   double outside(const Eigen::Vector3i& voxel) const {
@@ -84,7 +85,7 @@ void measure(const UnseenField& distances, const Shell* shell, const openvdb::Ma
   });
 }
 
-TriangleMesh surface(std::span<const DepthLattice> lattices, const GridGeometry& geometry,
+TriangleMesh surface(std::span<const VisibilityMesh> lattices, const GridGeometry& geometry,
                      const Shell* shell) {
   openvdb::MaskTree unseen = carve(lattices, geometry, {})->impl().shadow;
   if (shell != nullptr) unseen.topologyIntersection(shell->voxels());
@@ -94,15 +95,16 @@ TriangleMesh surface(std::span<const DepthLattice> lattices, const GridGeometry&
 }
 
 }  // namespace
-}  // namespace detail
+}  // namespace volume::detail
 
-TriangleMesh unseen_surface(std::span<const DepthLattice> lattices, const GridGeometry& geometry) {
-  return detail::surface(lattices, geometry, nullptr);
+TriangleMesh unseen_surface(std::span<const VisibilityMesh> lattices,
+                            const GridGeometry& geometry) {
+  return volume::detail::surface(lattices, geometry, nullptr);
 }
 
-TriangleMesh unseen_surface(std::span<const DepthLattice> lattices, const StateGrid& filtered) {
-  const detail::Shell shell(detail::shell_voxels(filtered));
-  return detail::surface(lattices, filtered.geometry(), &shell);
+TriangleMesh unseen_surface(std::span<const VisibilityMesh> lattices, const StateGrid& filtered) {
+  const volume::detail::Shell shell(volume::detail::shell_voxels(filtered));
+  return volume::detail::surface(lattices, filtered.geometry(), &shell);
 }
 
 }  // namespace vantage

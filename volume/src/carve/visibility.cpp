@@ -8,9 +8,9 @@
 #include <cmath>
 #include <limits>
 
-#include "vantage/raycore/box_projector.hpp"
+#include "vantage/raycore/detail/box_projector.hpp"
 #include "vantage/raycore/error.hpp"
-#include "vantage/volume/visibility.hpp"
+#include "vantage/volume/advanced/visibility.hpp"
 
 namespace vantage {
 namespace {
@@ -55,7 +55,7 @@ std::vector<float> vertices_over(const PixelSpan& span, int step_px) {
   return pixels;
 }
 
-void fill_depths(const detail::FilledDepth& depth, double offset, DepthLattice& lattice) {
+void fill_depths(const volume::detail::FilledDepth& depth, double offset, VisibilityMesh& lattice) {
   lattice.depth.resize(lattice.width() * lattice.height());
   tbb::parallel_for(std::size_t(0), lattice.height(), [&](std::size_t j) {
     float* const row = &lattice.depth[j * lattice.width()];
@@ -67,7 +67,7 @@ void fill_depths(const detail::FilledDepth& depth, double offset, DepthLattice& 
   });
 }
 
-bool has_any_cell(const DepthLattice& lattice) {
+bool has_any_cell(const VisibilityMesh& lattice) {
   for (std::size_t j = 0; j + 1 < lattice.height(); ++j)
     for (std::size_t i = 0; i + 1 < lattice.width(); ++i)
       if (lattice.has_cell(i, j)) return true;
@@ -93,18 +93,18 @@ void VisibilityOptions::check() const {
   volume.check();
 }
 
-std::optional<DepthLattice> visibility_lattice(const PosedDepth& image, const Box& work_area,
-                                               const VisibilityOptions& options) {
+std::optional<VisibilityMesh> visibility_lattice(const PosedDepth& image, const Box& work_area,
+                                                 const VisibilityOptions& options) {
   options.check();
   const Region region = region_of_interest(image.camera, work_area);
   if (!region.columns || !region.rows) return std::nullopt;
-  DepthLattice lattice{image.camera,
-                       vertices_over(*region.columns, options.step_px),
-                       vertices_over(*region.rows, options.step_px),
-                       {}};
+  VisibilityMesh lattice{image.camera,
+                         vertices_over(*region.columns, options.step_px),
+                         vertices_over(*region.rows, options.step_px),
+                         {}};
   const int reach_px = options.holes == DepthHoles::fill ? options.fill_reach_px : 0;
   // σ(z) = σ(1) z², so that in inverse depth the noise is the same everywhere.
-  fill_depths(detail::FilledDepth(image, reach_px),
+  fill_depths(volume::detail::FilledDepth(image, reach_px),
               options.offset_sigmas * options.noise.sigma_m(1), lattice);
   if (!has_any_cell(lattice)) return std::nullopt;
   return lattice;
@@ -112,7 +112,7 @@ std::optional<DepthLattice> visibility_lattice(const PosedDepth& image, const Bo
 
 }  // namespace vantage
 
-namespace vantage::detail {
+namespace vantage::volume::detail {
 namespace {
 
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
@@ -179,4 +179,4 @@ double FilledDepth::continued(int u, int v, int du, int dv, const Side& side) co
   return std::isnan(behind) ? side.inverse : std::max(side.inverse, 2 * side.inverse - behind);
 }
 
-}  // namespace vantage::detail
+}  // namespace vantage::volume::detail

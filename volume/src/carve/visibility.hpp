@@ -4,7 +4,7 @@
 
 #include "vantage/raycore/depth_image.hpp"
 
-namespace vantage::detail {
+namespace vantage::volume::detail {
 
 /// The inverse depths of a depth image, with holes that are filled from around them (thesis 7.4.2).
 /// Immutable; the image must outlive it.
@@ -44,4 +44,4 @@ class FilledDepth {
   int reach_px_;
 };
 
-}  // namespace vantage::detail
+}  // namespace vantage::volume::detail

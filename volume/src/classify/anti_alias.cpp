@@ -2,7 +2,7 @@
 
 #include "grid/block_set.hpp"
 
-namespace vantage::detail {
+namespace vantage::volume::detail {
 
 BlockBits aliased_shadow(const BlockSet& shadow, std::size_t block) {
   if (shadow.none(block)) return {};
@@ -18,4 +18,4 @@ BlockBits aliased_shadow(const BlockSet& shadow, std::size_t block) {
   return around.here() & two_missing;
 }
 
-}  // namespace vantage::detail
+}  // namespace vantage::volume::detail

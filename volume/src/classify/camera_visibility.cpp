@@ -6,12 +6,12 @@
 #include <array>
 #include <optional>
 
-namespace vantage::detail {
+namespace vantage::volume::detail {
 namespace {
 
 class SightTracer {
  public:
-  SightTracer(const PinholeCamera& camera, const KnownSpace& known, Sight& sight)
+  SightTracer(const PinholeCamera& camera, const KnownSpace& known, CameraVisibility& sight)
       : camera_(camera), projector_(camera), known_(known), contours_(camera), sight_(sight) {
     known.occluders.add_contours(camera, contours_);
     contours_.finish();
@@ -133,7 +133,7 @@ class SightTracer {
   BoxProjector projector_;
   const KnownSpace& known_;
   ContourMap contours_;
-  Sight& sight_;
+  CameraVisibility& sight_;
 };
 
 }  // namespace
@@ -146,8 +146,9 @@ bool KnownSpace::surface_in(const CellRange& blocks) const {
   return any;
 }
 
-Sight trace_sight(const PinholeCamera& camera, const KnownSpace& known, const StopToken& stop) {
-  Sight sight(known.frame.layout);
+CameraVisibility trace_sight(const PinholeCamera& camera, const KnownSpace& known,
+                             const StopToken& stop) {
+  CameraVisibility sight(known.frame.layout);
   SightTracer tracer(camera, known, sight);
   tbb::parallel_for(std::size_t(0), known.frame.layout.chunk_count(), [&](std::size_t chunk) {
     if (stop.stop_requested()) return;
@@ -157,4 +158,4 @@ Sight trace_sight(const PinholeCamera& camera, const KnownSpace& known, const St
   return sight;
 }
 
-}  // namespace vantage::detail
+}  // namespace vantage::volume::detail

@@ -8,15 +8,15 @@
 #include "objects/silhouette_map.hpp"
 #include "vantage/raycore/stop_token.hpp"
 
-namespace vantage::detail {
+namespace vantage::volume::detail {
 
 /// What one camera sees of the work area past the known objects (thesis 7.2.3); what it measured is
 /// left aside.
-struct Sight {
+struct CameraVisibility {
   BlockSet covered;  ///< the centre is in the image and in the depth range
   BlockSet clear;    ///< and no known object is in between; of no meaning for solid voxels
 
-  explicit Sight(const BlockLayout& layout) : covered(layout), clear(layout) {}
+  explicit CameraVisibility(const BlockLayout& layout) : covered(layout), clear(layout) {}
 };
 
 /// What does not change from camera to camera.
@@ -32,6 +32,7 @@ struct KnownSpace {
 /// Traces one camera. Ranges of blocks are decided at once where the camera's borders and the
 /// occluders' outlines prove that all their voxels share one answer; the others voxel by voxel.
 /// @param camera in the grid's frame.
-Sight trace_sight(const PinholeCamera& camera, const KnownSpace& known, const StopToken& stop);
+CameraVisibility trace_sight(const PinholeCamera& camera, const KnownSpace& known,
+                             const StopToken& stop);
 
-}  // namespace vantage::detail
+}  // namespace vantage::volume::detail

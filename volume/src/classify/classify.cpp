@@ -1,14 +1,14 @@
-#include "vantage/volume/classify.hpp"
+#include "vantage/volume/advanced/classify.hpp"
 
 #include "objects/known_objects.hpp"
+#include "vantage/volume/advanced/voxel_surface.hpp"
 #include "vantage/volume/shadow_volume.hpp"
-#include "vantage/volume/voxel_surface.hpp"
 
 namespace vantage {
 namespace {
 
 void add_known_objects(const WorldModel& world, SceneBuilder& builder) {
-  detail::for_each_known(world, [&](const KnownObject& object) {
+  volume::detail::for_each_known(world, [&](const KnownObject& object) {
     builder.add_mesh(object.mesh->transformed(object.T_world_object));
   });
 }

@@ -3,9 +3,9 @@
 #include <tbb/parallel_for.h>
 
 #include "classify/truncation_band.hpp"
-#include "vantage/raycore/box_projector.hpp"
+#include "vantage/raycore/detail/box_projector.hpp"
 
-namespace vantage::detail {
+namespace vantage::volume::detail {
 namespace {
 
 class DepthComparison {
@@ -88,4 +88,4 @@ DepthEvidence compare_with_depth(const PinholeCamera& camera, const DepthImage& 
   return evidence;
 }
 
-}  // namespace vantage::detail
+}  // namespace vantage::volume::detail

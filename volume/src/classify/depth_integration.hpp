@@ -6,7 +6,7 @@
 #include "vantage/raycore/stop_token.hpp"
 #include "vantage/volume/volume_options.hpp"
 
-namespace vantage::detail {
+namespace vantage::volume::detail {
 
 /// What one depth image says of the voxels whose centres are in its view; known objects are left
 /// aside. A voxel in neither set is behind the surface, or its depth is unknown.
@@ -25,4 +25,4 @@ DepthEvidence compare_with_depth(const PinholeCamera& camera, const DepthImage& 
                                  const GridFrame& frame, const BlockSet& covered,
                                  const VolumeOptions& options, const StopToken& stop);
 
-}  // namespace vantage::detail
+}  // namespace vantage::volume::detail

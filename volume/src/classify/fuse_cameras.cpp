@@ -6,7 +6,7 @@
 #include "classify/anti_alias.hpp"
 #include "grid/state_grid_impl.hpp"
 
-namespace vantage::detail {
+namespace vantage::volume::detail {
 namespace {
 
 /// The voxels of a grid by what became of them. Disjoint but for `measured`, part of `occupied`,
@@ -128,4 +128,4 @@ std::shared_ptr<const StateGrid> combine(const GridGeometry& geometry, const Kno
   return std::make_shared<const StateGrid>(std::move(impl));
 }
 
-}  // namespace vantage::detail
+}  // namespace vantage::volume::detail

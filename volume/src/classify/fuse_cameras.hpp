@@ -9,12 +9,12 @@
 #include "objects/known_objects.hpp"
 #include "vantage/volume/state_grid.hpp"
 
-namespace vantage::detail {
+namespace vantage::volume::detail {
 
 /// All that one camera contributes.
 struct CameraEvidence {
   PinholeCamera camera;  ///< in the grid's frame
-  Sight sight;
+  CameraVisibility sight;
   std::optional<DepthEvidence> depth;
   bool traced = false, measured = false;  ///< whether `sight` and `depth` are complete
 
@@ -25,4 +25,4 @@ struct CameraEvidence {
 std::shared_ptr<const StateGrid> combine(const GridGeometry& geometry, const KnownObjects& known,
                                          std::span<const CameraEvidence> cameras, bool anti_alias);
 
-}  // namespace vantage::detail
+}  // namespace vantage::volume::detail

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <limits>
 
-#include "vantage/raycore/multiversion.hpp"
+#include "vantage/raycore/detail/multiversion.hpp"
 
-namespace vantage::detail {
+namespace vantage::volume::detail {
 namespace {
 
 constexpr int kCell = 4;
@@ -170,4 +170,4 @@ BlockBits DepthBands::measured_points(std::size_t block, const PixelRect& pixels
   return bits;
 }
 
-}  // namespace vantage::detail
+}  // namespace vantage::volume::detail

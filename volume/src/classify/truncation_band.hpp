@@ -5,11 +5,11 @@
 
 #include "grid/grid_frame.hpp"
 #include "grid/hierarchical_z.hpp"
-#include "vantage/raycore/box_projector.hpp"
 #include "vantage/raycore/depth_image.hpp"
+#include "vantage/raycore/detail/box_projector.hpp"
 #include "vantage/volume/volume_options.hpp"
 
-namespace vantage::detail {
+namespace vantage::volume::detail {
 
 /// Pixels [u0, u1] × [v0, v1].
 struct PixelRect {
@@ -52,4 +52,4 @@ class DepthBands {
   MinPyramid fronts_, negative_backs_;  ///< over cells of kCell² pixels
 };
 
-}  // namespace vantage::detail
+}  // namespace vantage::volume::detail

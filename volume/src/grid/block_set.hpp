@@ -5,7 +5,7 @@
 
 #include "grid/blocks.hpp"
 
-namespace vantage::detail {
+namespace vantage::volume::detail {
 
 /// A set of voxels. A block with none or all of its voxels costs one byte, any other 64 more.
 ///
@@ -109,4 +109,4 @@ class Neighbourhood {
   BlockBits here_;
 };
 
-}  // namespace vantage::detail
+}  // namespace vantage::volume::detail

@@ -8,7 +8,7 @@
 
 #include "vantage/volume/grid_geometry.hpp"
 
-namespace vantage::detail {
+namespace vantage::volume::detail {
 
 /// A grid is cut into blocks of 8³ voxels, the leaves of OpenVDB, and those into chunks of 4³
 /// blocks. Work is shared out by chunk: what one task writes, no other task touches.
@@ -180,4 +180,4 @@ class BlockLayout {
   Eigen::Vector3i chunks_;
 };
 
-}  // namespace vantage::detail
+}  // namespace vantage::volume::detail

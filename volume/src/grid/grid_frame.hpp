@@ -3,10 +3,10 @@
 #include <Eigen/Core>
 
 #include "grid/blocks.hpp"
-#include "vantage/raycore/box_projector.hpp"
+#include "vantage/raycore/detail/box_projector.hpp"
 #include "vantage/raycore/points.hpp"
 
-namespace vantage::detail {
+namespace vantage::volume::detail {
 
 /// The coordinate of a voxel's centre as the rays see it.
 inline float centre_coordinate(int index, double voxel_size_m) {
@@ -93,4 +93,4 @@ void descend(const CellRange& blocks, const Decide& decide, const Visit& visit) 
   descend(high, decide, visit);
 }
 
-}  // namespace vantage::detail
+}  // namespace vantage::volume::detail

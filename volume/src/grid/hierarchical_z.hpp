@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace vantage::detail {
+namespace vantage::volume::detail {
 
 /// The smallest value over any rectangle of an image's cells, at the cost of a few look-ups: level
 /// by level each cell holds the smallest of 2 × 2. The answer may be too small, never too large: it
@@ -58,4 +58,4 @@ class MinPyramid {
   std::vector<Level> levels_;
 };
 
-}  // namespace vantage::detail
+}  // namespace vantage::volume::detail

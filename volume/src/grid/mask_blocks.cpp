@@ -1,6 +1,6 @@
 #include "grid/mask_blocks.hpp"
 
-namespace vantage::detail {
+namespace vantage::volume::detail {
 namespace {
 
 void add_tile(const openvdb::Coord& origin, int side, std::vector<MaskBlock>& blocks) {
@@ -42,4 +42,4 @@ std::vector<MaskBlock> mask_blocks(const openvdb::MaskTree& voxels) {
   return blocks;
 }
 
-}  // namespace vantage::detail
+}  // namespace vantage::volume::detail

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace vantage::detail {
+namespace vantage::volume::detail {
 
 /// 8³ voxels as bits: word x, bit 8y + z, as in an OpenVDB leaf.
 using BlockWords = std::array<std::uint64_t, 8>;
@@ -94,4 +94,4 @@ class BlockReader {
   openvdb::tree::ValueAccessor<const openvdb::MaskTree> at_;
 };
 
-}  // namespace vantage::detail
+}  // namespace vantage::volume::detail

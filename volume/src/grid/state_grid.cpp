@@ -12,7 +12,7 @@
 #include "vantage/raycore/error.hpp"
 
 namespace vantage {
-namespace detail {
+namespace volume::detail {
 namespace {
 
 /// For each block, how many voxels are on in the blocks before it; the last entry is the total.
@@ -54,9 +54,10 @@ void move_voxels(const openvdb::Coord& origin, const BlockWords& moved, openvdb:
 }
 
 }  // namespace
-}  // namespace detail
+}  // namespace volume::detail
 
-StateGrid::StateGrid(std::unique_ptr<const detail::StateGridImpl> impl) : impl_(std::move(impl)) {}
+StateGrid::StateGrid(std::unique_ptr<const volume::detail::StateGridImpl> impl)
+    : impl_(std::move(impl)) {}
 StateGrid::~StateGrid() = default;
 
 const GridGeometry& StateGrid::geometry() const noexcept {
@@ -64,7 +65,7 @@ const GridGeometry& StateGrid::geometry() const noexcept {
 }
 
 VoxelState StateGrid::at(const Eigen::Vector3i& voxel) const {
-  const openvdb::Coord place = detail::to_coord(voxel);
+  const openvdb::Coord place = volume::detail::to_coord(voxel);
   if (impl_->occupied.isValueOn(place)) return VoxelState::occupied;
   if (impl_->shadow.isValueOn(place)) return VoxelState::shadow;
   if (impl_->revealed.isValueOn(place)) return VoxelState::revealed;
@@ -72,11 +73,11 @@ VoxelState StateGrid::at(const Eigen::Vector3i& voxel) const {
 }
 
 bool StateGrid::measured(const Eigen::Vector3i& voxel) const {
-  return impl_->measured.isValueOn(detail::to_coord(voxel));
+  return impl_->measured.isValueOn(volume::detail::to_coord(voxel));
 }
 
 bool StateGrid::unseen(const Eigen::Vector3i& voxel) const {
-  return impl_->unseen.isValueOn(detail::to_coord(voxel));
+  return impl_->unseen.isValueOn(volume::detail::to_coord(voxel));
 }
 
 std::uint64_t StateGrid::count(VoxelState state) const noexcept {
@@ -88,8 +89,8 @@ const VolumeReport& StateGrid::report() const noexcept {
 }
 
 Points StateGrid::centres(VoxelState state) const {
-  return detail::with_voxels(*impl_, state, [&](const openvdb::MaskTree& voxels) {
-    return detail::centres_of(voxels, geometry());
+  return volume::detail::with_voxels(*impl_, state, [&](const openvdb::MaskTree& voxels) {
+    return volume::detail::centres_of(voxels, geometry());
   });
 }
 
@@ -99,17 +100,17 @@ std::shared_ptr<const StateGrid> StateGrid::with_revealed(
     throw bad_input("revealed voxels", fmt::format("there are {} flags for {} shadow voxels",
                                                    seen.size(), count(VoxelState::shadow)));
   }
-  auto impl = std::make_unique<detail::StateGridImpl>(*impl_);
+  auto impl = std::make_unique<volume::detail::StateGridImpl>(*impl_);
   std::size_t next = 0;
-  for (const detail::MaskBlock& block : detail::mask_blocks(impl_->shadow)) {
-    detail::BlockWords revealed{};
-    detail::for_each_on(block.words(), [&](int x, int y, int z) {
+  for (const volume::detail::MaskBlock& block : volume::detail::mask_blocks(impl_->shadow)) {
+    volume::detail::BlockWords revealed{};
+    volume::detail::for_each_on(block.words(), [&](int x, int y, int z) {
       const bool on = seen[next++] != 0;
       revealed[std::size_t(x)] |= std::uint64_t(on) << (8 * y + z);
     });
-    const std::uint64_t count = std::uint64_t(detail::count_on(revealed));
+    const std::uint64_t count = std::uint64_t(volume::detail::count_on(revealed));
     if (count == 0) continue;
-    detail::move_voxels(block.origin, revealed, impl->shadow, impl->revealed);
+    volume::detail::move_voxels(block.origin, revealed, impl->shadow, impl->revealed);
     impl->counts[std::size_t(VoxelState::shadow)] -= count;
     impl->counts[std::size_t(VoxelState::revealed)] += count;
   }

@@ -8,7 +8,7 @@
 #include "vantage/volume/state_grid.hpp"
 #include "vantage/volume/volume_report.hpp"
 
-namespace vantage::detail {
+namespace vantage::volume::detail {
 
 /// The voxels of each kind as sets. Uniform blocks are tiles; an empty part of the grid costs
 /// nothing. Invariant: `occupied`, `shadow` and `revealed` are disjoint; `measured` is part of
@@ -61,4 +61,4 @@ auto with_voxels(const StateGridImpl& grid, VoxelState state, const Use& use) {
   return use(voxels);
 }
 
-}  // namespace vantage::detail
+}  // namespace vantage::volume::detail

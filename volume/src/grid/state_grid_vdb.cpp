@@ -8,7 +8,7 @@
 #include "vantage/volume/state_grid.hpp"
 
 namespace vantage {
-namespace detail {
+namespace volume::detail {
 namespace {
 
 void add_state(const openvdb::MaskTree& voxels, VoxelState state, openvdb::Int32Tree& states) {
@@ -59,21 +59,21 @@ openvdb::math::Transform::Ptr index_to_centre(const GridGeometry& geometry) {
 }
 
 }  // namespace
-}  // namespace detail
+}  // namespace volume::detail
 
 void StateGrid::write_vdb(const std::filesystem::path& path) const {
   openvdb::initialize();
-  const openvdb::GridPtrVec grids = {detail::state_grid(*impl_),
-                                     detail::bool_grid(impl_->occupied, "occupied"),
-                                     detail::bool_grid(impl_->shadow, "shadow"),
-                                     detail::bool_grid(impl_->revealed, "revealed"),
-                                     detail::bool_grid(impl_->measured, "measured"),
-                                     detail::bool_grid(impl_->unseen, "unseen")};
-  const auto transform = detail::index_to_centre(geometry());
+  const openvdb::GridPtrVec grids = {volume::detail::state_grid(*impl_),
+                                     volume::detail::bool_grid(impl_->occupied, "occupied"),
+                                     volume::detail::bool_grid(impl_->shadow, "shadow"),
+                                     volume::detail::bool_grid(impl_->revealed, "revealed"),
+                                     volume::detail::bool_grid(impl_->measured, "measured"),
+                                     volume::detail::bool_grid(impl_->unseen, "unseen")};
+  const auto transform = volume::detail::index_to_centre(geometry());
   for (const openvdb::GridBase::Ptr& grid : grids) grid->setTransform(transform);
-  detail::VdbWriter writer;
+  volume::detail::VdbWriter writer;
   writer.setCompression(openvdb::io::COMPRESS_ZIP | openvdb::io::COMPRESS_ACTIVE_MASK);
-  detail::write_stream(path, [&](std::ostream& file) {
+  volume::detail::write_stream(path, [&](std::ostream& file) {
     writer.write_to(file, openvdb::GridCPtrVec(grids.begin(), grids.end()));
   });
 }

@@ -6,10 +6,10 @@
 #include <fstream>
 #include <system_error>
 
+#include "vantage/raycore/detail/file.hpp"
 #include "vantage/raycore/error.hpp"
-#include "vantage/raycore/file.hpp"
 
-namespace vantage::detail {
+namespace vantage::volume::detail {
 
 void write_stream(const std::filesystem::path& path,
                   const std::function<void(std::ostream&)>& write) {
@@ -25,4 +25,4 @@ void write_stream(const std::filesystem::path& path,
   });
 }
 
-}  // namespace vantage::detail
+}  // namespace vantage::volume::detail

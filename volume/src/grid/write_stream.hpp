@@ -4,10 +4,10 @@
 #include <functional>
 #include <ostream>
 
-namespace vantage::detail {
+namespace vantage::volume::detail {
 
 /// As `write_file_with`, for a writer that wants a stream and does not look after its errors.
 void write_stream(const std::filesystem::path& path,
                   const std::function<void(std::ostream&)>& write);
 
-}  // namespace vantage::detail
+}  // namespace vantage::volume::detail

@@ -37,7 +37,7 @@ std::string npy_header(const char* type, const Eigen::Vector3i& size) {
 template <class T, class Fill>
 void write_npy(const std::filesystem::path& path, const char* type, const Eigen::Vector3i& size,
                const Fill& fill) {
-  detail::write_stream(path, [&](std::ostream& file) {
+  volume::detail::write_stream(path, [&](std::ostream& file) {
     const std::string header = npy_header(type, size);
     file.write(header.data(), std::streamsize(header.size()));
     std::vector<T> row(std::size_t(size.z()));
@@ -74,7 +74,7 @@ class StateRows {
 
  private:
   int length_;
-  detail::BlockReader occupied_, shadow_, revealed_;
+  volume::detail::BlockReader occupied_, shadow_, revealed_;
 };
 
 }  // namespace

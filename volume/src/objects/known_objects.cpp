@@ -7,7 +7,7 @@
 
 #include "vantage/raycore/error.hpp"
 
-namespace vantage::detail {
+namespace vantage::volume::detail {
 namespace {
 
 std::string open_mesh_warning(const KnownObject& object, const MeshTopology& topology) {
@@ -74,4 +74,4 @@ KnownObjects::KnownObjects(const WorldModel& world, const GridFrame& frame,
   }
 }
 
-}  // namespace vantage::detail
+}  // namespace vantage::volume::detail

@@ -10,7 +10,7 @@
 #include "vantage/raycore/stop_token.hpp"
 #include "vantage/raycore/world_model.hpp"
 
-namespace vantage::detail {
+namespace vantage::volume::detail {
 
 /// The known objects and static structures of a world, as voxels and as surfaces.
 struct KnownObjects {
@@ -36,4 +36,4 @@ void for_each_known(const WorldModel& world, const Visit& visit) {
   for (const KnownObject& object : world.static_structures) visit(object);
 }
 
-}  // namespace vantage::detail
+}  // namespace vantage::volume::detail

@@ -7,7 +7,7 @@
 #include "vantage/raycore/pose.hpp"
 #include "vantage/raycore/triangle_mesh.hpp"
 
-namespace vantage::detail {
+namespace vantage::volume::detail {
 
 /// A known object's mesh, and where it stands in the grid's frame.
 struct PlacedMesh {
@@ -32,4 +32,4 @@ struct PlacedTriangles {
   }
 };
 
-}  // namespace vantage::detail
+}  // namespace vantage::volume::detail

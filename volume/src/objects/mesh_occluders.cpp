@@ -3,9 +3,9 @@
 #include <map>
 
 #include "objects/occluders.hpp"
-#include "vantage/raycore/scene_builder.hpp"
+#include "vantage/raycore/advanced/scene_builder.hpp"
 
-namespace vantage::detail {
+namespace vantage::volume::detail {
 namespace {
 
 /// From here on, copies of a mesh share one BVH; below, triangles in the world are faster to hit.
@@ -86,4 +86,4 @@ std::unique_ptr<const Occluders> mesh_occluders(std::vector<PlacedMesh> meshes) 
   return std::make_unique<const MeshOccluders>(std::move(meshes));
 }
 
-}  // namespace vantage::detail
+}  // namespace vantage::volume::detail

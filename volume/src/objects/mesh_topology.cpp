@@ -5,7 +5,7 @@
 #include <numeric>
 #include <tuple>
 
-namespace vantage::detail {
+namespace vantage::volume::detail {
 namespace {
 
 /// For each vertex the first one at its place.
@@ -82,4 +82,4 @@ MeshTopology::MeshTopology(const TriangleMesh& mesh) {
   unmatched_edges = closure == Closure::open ? odd : 0;
 }
 
-}  // namespace vantage::detail
+}  // namespace vantage::volume::detail

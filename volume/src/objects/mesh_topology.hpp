@@ -5,7 +5,7 @@
 
 #include "vantage/raycore/triangle_mesh.hpp"
 
-namespace vantage::detail {
+namespace vantage::volume::detail {
 
 /// What tells inside from outside.
 enum class Closure {
@@ -39,4 +39,4 @@ struct MeshTopology {
   explicit MeshTopology(const TriangleMesh& mesh);
 };
 
-}  // namespace vantage::detail
+}  // namespace vantage::volume::detail

@@ -8,7 +8,7 @@
 #include "objects/scan_lines.hpp"
 #include "objects/triangle_box.hpp"
 
-namespace vantage::detail {
+namespace vantage::volume::detail {
 namespace {
 
 /// A box of blocks that is filled voxel by voxel, then stripped of the empty ones.
@@ -140,4 +140,4 @@ void mark_surface_octants(const PlacedTriangles& mesh, const BlockLayout& layout
       });
 }
 
-}  // namespace vantage::detail
+}  // namespace vantage::volume::detail

@@ -7,7 +7,7 @@
 #include "objects/mesh_instance.hpp"
 #include "vantage/volume/grid_geometry.hpp"
 
-namespace vantage::detail {
+namespace vantage::volume::detail {
 
 /// The voxels that one object fills, block by block; only blocks that have some, in ascending
 /// order.
@@ -34,4 +34,4 @@ ObjectVoxels object_voxels(const PlacedTriangles& mesh, Closure closure, const B
 void mark_surface_octants(const PlacedTriangles& mesh, const BlockLayout& layout,
                           double voxel_size_m, std::vector<std::uint8_t>& marks);
 
-}  // namespace vantage::detail
+}  // namespace vantage::volume::detail

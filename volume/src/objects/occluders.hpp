@@ -7,13 +7,13 @@
 #include "grid/block_set.hpp"
 #include "objects/mesh_instance.hpp"
 #include "objects/silhouette_map.hpp"
+#include "vantage/raycore/advanced/scene.hpp"
 #include "vantage/raycore/camera.hpp"
 #include "vantage/raycore/points.hpp"
-#include "vantage/raycore/scene.hpp"
 #include "vantage/raycore/world_model.hpp"
 #include "vantage/volume/volume_options.hpp"
 
-namespace vantage::detail {
+namespace vantage::volume::detail {
 
 /// What hides voxels from cameras, in the grid's frame. Immutable; may be asked from many threads.
 class Occluders {
@@ -39,4 +39,4 @@ std::unique_ptr<const Occluders> mesh_occluders(std::vector<PlacedMesh> meshes);
 /// that it touches, within 1e-9 of a voxel. `solid` must outlive the result.
 std::unique_ptr<const Occluders> voxel_occluders(const BlockSet& solid, double voxel_size_m);
 
-}  // namespace vantage::detail
+}  // namespace vantage::volume::detail

@@ -5,7 +5,7 @@
 
 #include "grid/grid_frame.hpp"
 
-namespace vantage::detail {
+namespace vantage::volume::detail {
 namespace {
 
 __extension__ using Wide = __float128;  // products of three floats' differences fit
@@ -105,4 +105,4 @@ std::vector<Crossing> scan_line_crossings(const PlacedTriangles& mesh, const Cel
   return crossings;
 }
 
-}  // namespace vantage::detail
+}  // namespace vantage::volume::detail

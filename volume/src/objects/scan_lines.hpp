@@ -6,7 +6,7 @@
 #include "grid/blocks.hpp"
 #include "objects/mesh_instance.hpp"
 
-namespace vantage::detail {
+namespace vantage::volume::detail {
 
 /// Where the line along z through the centres of a column of voxels meets a triangle.
 struct Crossing {
@@ -33,4 +33,4 @@ inline int first_centre_above(double coordinate, double voxel_size_m) {
   return -floor_to_int(0.5 - coordinate / voxel_size_m);
 }
 
-}  // namespace vantage::detail
+}  // namespace vantage::volume::detail

@@ -6,10 +6,10 @@
 #include <limits>
 #include <utility>
 
-namespace vantage::detail {
+namespace vantage::volume::detail {
 namespace {
 
-constexpr int kMostCells = 320;     ///< along the longer side of the image
+constexpr int kMaxCells = 320;      ///< along the longer side of the image
 constexpr double kTooClose = 1e-3;  ///< metres: edges are cut off at this depth
 
 /// The part of a line parameter's range [0, 1] where a + b t is within [low, high].
@@ -46,7 +46,7 @@ ContourMap::ContourMap(const PinholeCamera& camera)
       R_cam_world_(camera.T_world_cam().rotation().transpose()),
       cell_px_(std::max(
           1.0, std::ceil(double(std::max(camera.intrinsics().width, camera.intrinsics().height)) /
-                         kMostCells))),
+                         kMaxCells))),
       columns_(int(std::ceil(camera.intrinsics().width / cell_px_))),
       rows_(int(std::ceil(camera.intrinsics().height / cell_px_))),
       nearest_(std::size_t(columns_) * std::size_t(rows_), std::numeric_limits<float>::infinity()) {
@@ -130,4 +130,4 @@ bool ContourMap::clear_before(const BoxInView& box) const {
   return blocked_lens_ == 0 && double(nearest) > box.z_max;
 }
 
-}  // namespace vantage::detail
+}  // namespace vantage::volume::detail

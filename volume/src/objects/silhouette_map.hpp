@@ -5,10 +5,10 @@
 #include <vector>
 
 #include "grid/hierarchical_z.hpp"
-#include "vantage/raycore/box_projector.hpp"
 #include "vantage/raycore/camera.hpp"
+#include "vantage/raycore/detail/box_projector.hpp"
 
-namespace vantage::detail {
+namespace vantage::volume::detail {
 
 /// Where, on one camera's image, the outlines of the occluders are, and how near the nearest is.
 ///
@@ -46,4 +46,4 @@ class ContourMap {
   MinPyramid pyramid_;
 };
 
-}  // namespace vantage::detail
+}  // namespace vantage::volume::detail

@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-namespace vantage::detail {
+namespace vantage::volume::detail {
 
 /// Whether a triangle touches a closed box; both may be off by rounding of 1e-12 of their size.
 /// Separating axes: the box's three, the triangle's normal, and the nine cross products of edges
@@ -31,4 +31,4 @@ inline bool triangle_touches_box(const std::array<Eigen::Vector3d, 3>& corners,
   return true;
 }
 
-}  // namespace vantage::detail
+}  // namespace vantage::volume::detail

@@ -7,9 +7,9 @@
 
 #include "grid/block_set.hpp"
 #include "objects/occluders.hpp"
-#include "vantage/raycore/scene_builder.hpp"
+#include "vantage/raycore/advanced/scene_builder.hpp"
 
-namespace vantage::detail {
+namespace vantage::volume::detail {
 namespace {
 
 /// Takes the voxels of one box out of `left`, starting at its lowest one.
@@ -192,4 +192,4 @@ std::unique_ptr<const Occluders> voxel_occluders(const BlockSet& solid, double v
   return std::make_unique<const VoxelOccluders>(solid, voxel_size_m);
 }
 
-}  // namespace vantage::detail
+}  // namespace vantage::volume::detail

@@ -8,7 +8,7 @@
 #include "grid/block_set.hpp"
 #include "grid/blocks.hpp"
 
-namespace vantage::detail {
+namespace vantage::volume::detail {
 
 /// Boxes of voxels that together are a set, disjoint; none reaches beyond its block. Rows along z
 /// are joined along y where they are equal, and those sheets along x.
@@ -98,4 +98,4 @@ class VoxelWalk {
   Eigen::Vector3d next_;       ///< line parameter of the next plane
 };
 
-}  // namespace vantage::detail
+}  // namespace vantage::volume::detail

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <numeric>
 
-namespace vantage::detail {
+namespace vantage::volume::detail {
 namespace {
 
 void split(ShadowBlock& block) {
@@ -148,4 +148,4 @@ std::vector<BlockWords> local_components(const BlockWords& words) {
   return components;
 }
 
-}  // namespace vantage::detail
+}  // namespace vantage::volume::detail

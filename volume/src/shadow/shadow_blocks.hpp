@@ -8,7 +8,7 @@
 #include "grid/mask_blocks.hpp"
 #include "grid/openvdb.hpp"
 
-namespace vantage::detail {
+namespace vantage::volume::detail {
 
 /// A block of 8³ voxels with those that are on, split into components: voxels that hang together by
 /// faces inside the block. Components are numbered through all blocks.
@@ -62,4 +62,4 @@ BlockWords flooded(const BlockWords& seed, const BlockWords& within);
 /// order of their first voxels. There are at most 256.
 std::vector<BlockWords> local_components(const BlockWords& words);
 
-}  // namespace vantage::detail
+}  // namespace vantage::volume::detail

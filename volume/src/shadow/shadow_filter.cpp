@@ -1,4 +1,4 @@
-#include "vantage/volume/shadow_filter.hpp"
+#include "vantage/volume/advanced/shadow_filter.hpp"
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
@@ -15,7 +15,7 @@
 #include "shadow/shell_voxels.hpp"
 #include "surface/voxel_faces.hpp"
 #include "vantage/raycore/error.hpp"
-#include "vantage/volume/shadow_regions.hpp"
+#include "vantage/volume/advanced/shadow_regions.hpp"
 
 namespace vantage {
 namespace {
@@ -25,7 +25,7 @@ using openvdb::MaskTree;
 
 /// The grid with less shadow. @param kept part of the grid's shadow.
 std::shared_ptr<const StateGrid> with_shadow(const StateGrid& grid, const MaskTree& kept) {
-  auto impl = std::make_unique<detail::StateGridImpl>(grid.impl());
+  auto impl = std::make_unique<volume::detail::StateGridImpl>(grid.impl());
   MaskTree removed = impl->shadow;
   removed.topologyDifference(kept);
   const std::uint64_t count = removed.activeVoxelCount();
@@ -42,11 +42,12 @@ std::shared_ptr<const StateGrid> with_shadow(const StateGrid& grid, const MaskTr
 }
 
 /// The voxels of a block whose region is one of the first `regions`.
-detail::BlockWords in_first_regions(const detail::MaskBlock& block, const ShadowRegions& all,
-                                    std::size_t regions) {
-  detail::BlockWords words{};
-  detail::for_each_on(block.words(), [&](int x, int y, int z) {
-    const std::int32_t label = all.label(detail::to_voxel(block.origin) + Eigen::Vector3i(x, y, z));
+volume::detail::BlockWords in_first_regions(const volume::detail::MaskBlock& block,
+                                            const ShadowRegions& all, std::size_t regions) {
+  volume::detail::BlockWords words{};
+  volume::detail::for_each_on(block.words(), [&](int x, int y, int z) {
+    const std::int32_t label =
+        all.label(volume::detail::to_voxel(block.origin) + Eigen::Vector3i(x, y, z));
     words[std::size_t(x)] |= std::uint64_t(std::size_t(label) <= regions) << (8 * y + z);
   });
   return words;
@@ -54,7 +55,7 @@ detail::BlockWords in_first_regions(const detail::MaskBlock& block, const Shadow
 
 }  // namespace
 
-std::shared_ptr<const StateGrid> opened_shadow(const StateGrid& grid, int radius_voxels) {
+std::shared_ptr<const StateGrid> morphological_open(const StateGrid& grid, int radius_voxels) {
   if (radius_voxels < 0 || radius_voxels > 64) {
     throw bad_input("radius_voxels", fmt::format("is {}; expected 0 to 64 voxels", radius_voxels));
   }
@@ -78,7 +79,7 @@ int opening_radius(const StateGrid& grid, double edge_m) {
   return std::max(0, int(std::floor(0.5 * (voxels - 1))));
 }
 
-MaskTree detail::shell_voxels(const StateGrid& grid) {
+MaskTree volume::detail::shell_voxels(const StateGrid& grid) {
   MaskTree around = grid.impl().shadow;
   around.voxelizeActiveTiles();
   tools::dilateActiveValues(around, 1, tools::NN_FACE_EDGE_VERTEX, tools::IGNORE_TILES);
@@ -86,27 +87,27 @@ MaskTree detail::shell_voxels(const StateGrid& grid) {
 }
 
 TriangleMesh shell_around_shadow(const StateGrid& grid) {
-  return detail::voxel_faces(detail::shell_voxels(grid), grid.geometry());
+  return volume::detail::voxel_faces(volume::detail::shell_voxels(grid), grid.geometry());
 }
 
-std::shared_ptr<const StateGrid> large_shadow(const StateGrid& grid, double least_m3) {
-  if (!std::isfinite(least_m3) || least_m3 < 0) {
-    throw bad_input("least_m3",
-                    fmt::format("is {}; expected a finite volume, 0 or above", least_m3));
+std::shared_ptr<const StateGrid> remove_small_components(const StateGrid& grid, double min_m3) {
+  if (!std::isfinite(min_m3) || min_m3 < 0) {
+    throw bad_input("min_m3", fmt::format("is {}; expected a finite volume, 0 or above", min_m3));
   }
   const ShadowRegions regions(grid);
   std::size_t large = 0;  // they are sorted, largest first
   while (large < regions.list().size() &&
-         double(regions.list()[large].voxels) * grid.geometry().voxel_volume_m3() >= least_m3) {
+         double(regions.list()[large].voxels) * grid.geometry().voxel_volume_m3() >= min_m3) {
     ++large;
   }
-  const std::vector<detail::MaskBlock> blocks = detail::mask_blocks(grid.impl().shadow);
-  std::vector<detail::BlockWords> kept(blocks.size());
+  const std::vector<volume::detail::MaskBlock> blocks =
+      volume::detail::mask_blocks(grid.impl().shadow);
+  std::vector<volume::detail::BlockWords> kept(blocks.size());
   tbb::parallel_for(std::size_t(0), blocks.size(),
                     [&](std::size_t b) { kept[b] = in_first_regions(blocks[b], regions, large); });
   MaskTree shadow(false);
   for (std::size_t b = 0; b < blocks.size(); ++b) {
-    shadow.touchLeaf(blocks[b].origin)->setValueMask(detail::mask_of(kept[b]));
+    shadow.touchLeaf(blocks[b].origin)->setValueMask(volume::detail::mask_of(kept[b]));
   }
   tools::pruneInactive(shadow);
   return with_shadow(grid, shadow);

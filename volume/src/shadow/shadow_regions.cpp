@@ -1,4 +1,4 @@
-#include "vantage/volume/shadow_regions.hpp"
+#include "vantage/volume/advanced/shadow_regions.hpp"
 
 #include "grid/openvdb.hpp"
 
@@ -12,7 +12,7 @@
 #include "shadow/shadow_blocks.hpp"
 
 namespace vantage {
-namespace detail {
+namespace volume::detail {
 namespace {
 
 /// Where the 8 bits of each byte, and the 8 bytes, have a 1 in binary place 0, 1 and 2.
@@ -97,34 +97,36 @@ std::size_t number_sets(const std::vector<std::uint32_t>& lowest,
 }
 
 }  // namespace
-}  // namespace detail
+}  // namespace volume::detail
 
 struct ShadowRegions::Impl {
   GridGeometry geometry;
-  detail::ShadowBlocks blocks;
+  volume::detail::ShadowBlocks blocks;
   std::vector<std::int32_t> labels;  ///< by component
   std::vector<ShadowRegion> list;
 
   Impl(const GridGeometry& g, const openvdb::MaskTree& shadow, const openvdb::MaskTree& unseen)
       : geometry(g), blocks(shadow), labels(blocks.component_count()) {
-    std::vector<detail::RegionSums> sums(detail::number_sets(blocks.connected(), labels));
-    detail::BlockReader unseen_at(unseen);
-    for (const detail::ShadowBlock& block : blocks.list()) {
-      const detail::BlockWords unseen_words = unseen_at.words(block.origin);
+    std::vector<volume::detail::RegionSums> sums(
+        volume::detail::number_sets(blocks.connected(), labels));
+    volume::detail::BlockReader unseen_at(unseen);
+    for (const volume::detail::ShadowBlock& block : blocks.list()) {
+      const volume::detail::BlockWords unseen_words = unseen_at.words(block.origin);
       const std::int32_t* label = &labels[block.first_component];
-      for (const detail::BlockWords& words : block.component_words()) {
+      for (const volume::detail::BlockWords& words : block.component_words()) {
         sums[std::size_t(*label++)].add(block.origin, words, unseen_words);
       }
     }
-    for (const detail::RegionSums& sum : sums) list.push_back(sum.region(geometry));
+    for (const volume::detail::RegionSums& sum : sums) list.push_back(sum.region(geometry));
     sort_by_size();
   }
 
   void sort_by_size() {
     std::vector<std::size_t> order(list.size());
     std::iota(order.begin(), order.end(), std::size_t(0));
-    std::sort(order.begin(), order.end(),
-              [&](std::size_t a, std::size_t b) { return detail::goes_before(list[a], list[b]); });
+    std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+      return volume::detail::goes_before(list[a], list[b]);
+    });
     std::vector<std::int32_t> label_of(list.size());
     std::vector<ShadowRegion> sorted;
     for (const std::size_t i : order) {
@@ -135,7 +137,8 @@ struct ShadowRegions::Impl {
     for (std::int32_t& label : labels) label = label_of[std::size_t(label)];
   }
 
-  std::int32_t label_in(const detail::ShadowBlock& block, const openvdb::Coord& voxel) const {
+  std::int32_t label_in(const volume::detail::ShadowBlock& block,
+                        const openvdb::Coord& voxel) const {
     const int x = voxel.x() & 7, bit = ((voxel.y() & 7) << 3) | (voxel.z() & 7);
     if (!(block.words[std::size_t(x)] >> bit & 1)) return 0;
     return labels[block.component_of(std::size_t(64 * x + bit))];
@@ -158,9 +161,9 @@ const std::vector<ShadowRegion>& ShadowRegions::list() const noexcept {
 }
 
 std::int32_t ShadowRegions::label(const Eigen::Vector3i& voxel) const {
-  const openvdb::Coord place = detail::to_coord(voxel);
+  const openvdb::Coord place = volume::detail::to_coord(voxel);
   auto places = impl_->blocks.accessor();
-  const detail::ShadowBlock* const block = impl_->blocks.at(places, place);
+  const volume::detail::ShadowBlock* const block = impl_->blocks.at(places, place);
   return block == nullptr ? 0 : impl_->label_in(*block, place);
 }
 
@@ -168,7 +171,7 @@ void ShadowRegions::labels_of_row(int i, int j, std::int32_t* row) const {
   const int length = geometry().size().z();
   auto places = impl_->blocks.accessor();
   for (int first = 0; first < length; first += 8) {
-    const detail::ShadowBlock* const block = impl_->blocks.at(places, {i, j, first});
+    const volume::detail::ShadowBlock* const block = impl_->blocks.at(places, {i, j, first});
     for (int k = first; k < std::min(first + 8, length); ++k) {
       row[k] = block == nullptr ? 0 : impl_->label_in(*block, {i, j, k});
     }

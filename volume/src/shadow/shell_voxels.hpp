@@ -4,10 +4,10 @@
 
 #include "vantage/volume/state_grid.hpp"
 
-namespace vantage::detail {
+namespace vantage::volume::detail {
 
 /// The shadow and the voxels next to it, also beyond the grid's box: what lies within
 /// `shell_around_shadow`.
 openvdb::MaskTree shell_voxels(const StateGrid& grid);
 
-}  // namespace vantage::detail
+}  // namespace vantage::volume::detail

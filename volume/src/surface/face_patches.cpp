@@ -4,7 +4,7 @@
 
 #include "grid/mask_blocks.hpp"
 
-namespace vantage::detail {
+namespace vantage::volume::detail {
 namespace {
 
 /// Transposes 8 × 8 bits, bit 8 · row + column (Hacker's Delight, 7-3).
@@ -97,4 +97,4 @@ SplitPatches split(const std::vector<FacePatch>& patches, const openvdb::MaskTre
   return parts;
 }
 
-}  // namespace vantage::detail
+}  // namespace vantage::volume::detail

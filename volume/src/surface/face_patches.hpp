@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace vantage::detail {
+namespace vantage::volume::detail {
 
 /// Which way faces look, and in which plane they lie: index coordinate `position` along `axis`.
 struct AxisPlane {
@@ -36,4 +36,4 @@ struct SplitPatches {
 /// parts are in the order of `patches`.
 SplitPatches split(const std::vector<FacePatch>& patches, const openvdb::MaskTree& covering);
 
-}  // namespace vantage::detail
+}  // namespace vantage::volume::detail

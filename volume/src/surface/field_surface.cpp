@@ -3,7 +3,7 @@
 #include <openvdb/tools/Morphology.h>
 #include <openvdb/tools/VolumeToMesh.h>
 
-namespace vantage::detail {
+namespace vantage::volume::detail {
 namespace {
 
 namespace tools = openvdb::tools;
@@ -57,4 +57,4 @@ TriangleMesh field_surface(const openvdb::FloatGrid& field, const GridGeometry& 
   return {std::move(vertices), std::move(triangles), where};
 }
 
-}  // namespace vantage::detail
+}  // namespace vantage::volume::detail

@@ -9,7 +9,7 @@
 #include "vantage/raycore/triangle_mesh.hpp"
 #include "vantage/volume/grid_geometry.hpp"
 
-namespace vantage::detail {
+namespace vantage::volume::detail {
 
 // Surfaces of sets of voxels, as the places where a field of numbers at the voxels' centres is 0:
 // negative inside, as in level sets.
@@ -29,4 +29,4 @@ inline float on_side(float value, bool inside, float margin) {
 TriangleMesh field_surface(const openvdb::FloatGrid& field, const GridGeometry& geometry,
                            std::string_view where);
 
-}  // namespace vantage::detail
+}  // namespace vantage::volume::detail

@@ -1,4 +1,4 @@
-#include "vantage/volume/smooth_surface.hpp"
+#include "vantage/volume/advanced/smooth_surface.hpp"
 
 #include "grid/openvdb.hpp"
 
@@ -10,7 +10,7 @@
 #include "surface/field_surface.hpp"
 
 namespace vantage {
-namespace detail {
+namespace volume::detail {
 namespace {
 
 namespace tools = openvdb::tools;
@@ -38,11 +38,11 @@ TriangleMesh smooth_surface(const openvdb::MaskTree& voxels, const GridGeometry&
 }
 
 }  // namespace
-}  // namespace detail
+}  // namespace volume::detail
 
 TriangleMesh smooth_surface(const StateGrid& grid, VoxelState state) {
-  return detail::with_voxels(grid.impl(), state, [&](const openvdb::MaskTree& voxels) {
-    return detail::smooth_surface(voxels, grid.geometry());
+  return volume::detail::with_voxels(grid.impl(), state, [&](const openvdb::MaskTree& voxels) {
+    return volume::detail::smooth_surface(voxels, grid.geometry());
   });
 }
 

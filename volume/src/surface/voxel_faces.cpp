@@ -14,7 +14,7 @@
 #include "surface/face_patches.hpp"
 
 namespace vantage {
-namespace detail {
+namespace volume::detail {
 namespace {
 
 /// Columns [begin, end) of rows [top, bottom).
@@ -168,22 +168,22 @@ ShadowSurface split_voxel_faces(const openvdb::MaskTree& voxels, const openvdb::
   return {mesh_of(parts.open, geometry), mesh_of(parts.covered, geometry)};
 }
 
-}  // namespace detail
+}  // namespace volume::detail
 
 TriangleMesh voxel_faces(const StateGrid& grid, VoxelState state) {
-  return detail::with_voxels(grid.impl(), state, [&](const openvdb::MaskTree& voxels) {
-    return detail::voxel_faces(voxels, grid.geometry());
+  return volume::detail::with_voxels(grid.impl(), state, [&](const openvdb::MaskTree& voxels) {
+    return volume::detail::voxel_faces(voxels, grid.geometry());
   });
 }
 
 TriangleMesh measured_faces(const StateGrid& grid) {
-  return detail::voxel_faces(grid.impl().measured, grid.geometry());
+  return volume::detail::voxel_faces(grid.impl().measured, grid.geometry());
 }
 
 ShadowSurface shadow_surface(const StateGrid& grid, OccluderMode mode) {
-  const detail::StateGridImpl& impl = grid.impl();
+  const volume::detail::StateGridImpl& impl = grid.impl();
   const openvdb::MaskTree& solid = mode == OccluderMode::voxels ? impl.occupied : impl.measured;
-  return detail::split_voxel_faces(impl.shadow, solid, grid.geometry());
+  return volume::detail::split_voxel_faces(impl.shadow, solid, grid.geometry());
 }
 
 }  // namespace vantage

@@ -3,10 +3,10 @@
 #include "grid/openvdb.hpp"
 
 #include "vantage/raycore/triangle_mesh.hpp"
+#include "vantage/volume/advanced/voxel_surface.hpp"
 #include "vantage/volume/grid_geometry.hpp"
-#include "vantage/volume/voxel_surface.hpp"
 
-namespace vantage::detail {
+namespace vantage::volume::detail {
 
 /// The faces between the active voxels, in the grid or next to it, and all others, outwards, world
 /// frame; neighbours in a plane are merged into rectangles, row by row, then rows of equal extent.
@@ -17,4 +17,4 @@ TriangleMesh voxel_faces(const openvdb::MaskTree& voxels, const GridGeometry& ge
 ShadowSurface split_voxel_faces(const openvdb::MaskTree& voxels, const openvdb::MaskTree& covering,
                                 const GridGeometry& geometry);
 
-}  // namespace vantage::detail
+}  // namespace vantage::volume::detail

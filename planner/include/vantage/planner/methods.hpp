@@ -4,10 +4,10 @@
 #include <string>
 #include <vector>
 
-#include "vantage/planner/mesh_scorer.hpp"
-#include "vantage/planner/planning_scene.hpp"
+#include "vantage/planner/advanced/mesh_scorer.hpp"
+#include "vantage/planner/advanced/planning_scene.hpp"
 #include "vantage/planner/view_scorer.hpp"
-#include "vantage/raycore/api.hpp"
+#include "vantage/raycore/export.hpp"
 #include "vantage/raycore/world_model.hpp"
 
 namespace vantage {

@@ -6,14 +6,14 @@
 #include <string>
 #include <vector>
 
+#include "vantage/planner/advanced/servo_refiner.hpp"
+#include "vantage/planner/advanced/view_polisher.hpp"
+#include "vantage/planner/advanced/view_search.hpp"
 #include "vantage/planner/methods.hpp"
-#include "vantage/planner/servo_refiner.hpp"
 #include "vantage/planner/view_candidates.hpp"
 #include "vantage/planner/view_constraints.hpp"
-#include "vantage/planner/view_polisher.hpp"
-#include "vantage/planner/view_search.hpp"
-#include "vantage/raycore/api.hpp"
 #include "vantage/raycore/camera.hpp"
+#include "vantage/raycore/export.hpp"
 #include "vantage/raycore/stop_token.hpp"
 #include "vantage/raycore/world_model.hpp"
 #include "vantage/volume/state_grid.hpp"
@@ -22,10 +22,10 @@
 namespace vantage {
 
 /// How many views are to be planned, one after the other, and when it is enough.
-struct ViewCount {
+struct ViewSequenceOptions {
   int most = 1;
-  double least_gain_m3 = 0;     ///< a further view that reveals less is not worth it
-  double least_gain_share = 0;  ///< the same as a share of all shadow, 0 to 1
+  double min_gain_m3 = 0;     ///< a further view that reveals less is not worth it
+  double min_gain_share = 0;  ///< the same as a share of all shadow, 0 to 1
 
   /// @throws Error bad_input unless 1 <= most <= 1000, and for gains that are negative or not
   /// finite, or a share above 1.
@@ -44,7 +44,7 @@ struct PlanRequest {
   ServoOptions servo = {};
   PolishOptions polish = {};
   SearchOptions search = {};
-  ViewCount views = {};
+  ViewSequenceOptions views = {};
   VolumeOptions volume = {};  ///< how the work area is classified, and what hides from a new view
 };
 
@@ -113,8 +113,8 @@ struct RegionGain {
 /// Why a candidate has the score that it has.
 struct ViewExplanation {
   ViewCandidate candidate;
-  Rejection rejected = Rejection::none;  ///< then the rest is empty
-  std::vector<ScoredStep> trace = {};    ///< as `Plan::trace`, each step with its exact score
+  InvalidReason rejected = InvalidReason::none;  ///< then the rest is empty
+  std::vector<ScoredStep> trace = {};  ///< as `Plan::trace`, each step with its exact score
   std::size_t best_step = 0;
   std::vector<ScoreTerm> terms = {};     ///< of the best step
   std::uint64_t revealed_voxels = 0;     ///< by the best step

@@ -4,8 +4,8 @@
 #include <variant>
 #include <vector>
 
-#include "vantage/raycore/api.hpp"
 #include "vantage/raycore/box.hpp"
+#include "vantage/raycore/export.hpp"
 #include "vantage/raycore/pose.hpp"
 
 namespace vantage {
@@ -38,7 +38,7 @@ VANTAGE_API HalfSpheres full_views();
 
 /// The same set with its radii, and with one count for each of them.
 /// @throws Error bad_input as `view_candidates` does.
-VANTAGE_API HalfSpheres written_out(HalfSpheres set, const Box& work_area);
+VANTAGE_API HalfSpheres resolve_defaults(HalfSpheres set, const Box& work_area);
 
 /// Positions in a box, world frame: counts.x() × counts.y() × counts.z() of them, from face to face
 /// (in the middle, along an axis with one).

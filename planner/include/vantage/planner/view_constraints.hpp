@@ -8,10 +8,10 @@
 #include <variant>
 #include <vector>
 
-#include "vantage/planner/planning_scene.hpp"
-#include "vantage/raycore/api.hpp"
+#include "vantage/planner/advanced/planning_scene.hpp"
 #include "vantage/raycore/box.hpp"
 #include "vantage/raycore/camera.hpp"
+#include "vantage/raycore/export.hpp"
 #include "vantage/raycore/pose.hpp"
 
 namespace vantage {
@@ -72,7 +72,7 @@ struct ViewConstraints {
 };
 
 /// Why a camera cannot be at a pose, in the order in which it is tested.
-enum class Rejection : std::uint8_t {
+enum class InvalidReason : std::uint8_t {
   none,
   below_the_floor,  ///< z <= 0
   out_of_reach,
@@ -84,18 +84,19 @@ enum class Rejection : std::uint8_t {
   too_close_to_occupied,
 };
 /// In words, e.g. "out of reach".
-VANTAGE_API std::string_view to_text(Rejection reason);
+VANTAGE_API std::string_view to_text(InvalidReason reason);
 
 /// Tests poses against constraints. Immutable; thread-safe.
 ///
 /// Distances are to the surfaces of `PlanningScene`; what is nearer to a surface than 1e-6 of the
 /// scene's coordinates is a matter of rounding.
-class VANTAGE_API ViewChecker {
+class VANTAGE_API ViewValidityChecker {
  public:
   /// @throws Error as `ViewConstraints::check` does.
-  ViewChecker(const ViewConstraints& constraints, PlanningScene scene, const DepthRange& range);
+  ViewValidityChecker(const ViewConstraints& constraints, PlanningScene scene,
+                      const DepthRange& range);
 
-  Rejection check(const Pose& T_world_cam) const;
+  InvalidReason check(const Pose& T_world_cam) const;
 
  private:
   ViewConstraints constraints_;

@@ -5,8 +5,8 @@
 #include <string_view>
 #include <vector>
 
-#include "vantage/raycore/api.hpp"
 #include "vantage/raycore/camera.hpp"
+#include "vantage/raycore/export.hpp"
 #include "vantage/raycore/stop_token.hpp"
 
 namespace vantage {
@@ -18,9 +18,9 @@ using Score = std::uint64_t;
 /// What is known of a view's score.
 struct ScoreBound {
   enum class Known : std::uint8_t {
-    nothing,      ///< it was stopped before anything was known
-    passed_over,  ///< not scored: a cheaper method let others go before; `score` is of no use
-    at_most,      ///< `score` is a certified upper bound
+    nothing,  ///< it was stopped before anything was known
+    pruned,   ///< not scored: a cheaper method let others go before; `score` is of no use
+    at_most,  ///< `score` is a certified upper bound
     exact,
   };
   Known known = Known::nothing;

@@ -5,9 +5,9 @@
 #include <cmath>
 
 #include "scoring/shadow/depth_weight.hpp"
-#include "vantage/raycore/multiversion.hpp"
+#include "vantage/raycore/detail/multiversion.hpp"
 
-namespace vantage::detail {
+namespace vantage::planner::detail {
 namespace {
 
 struct CountedUnseen {
@@ -81,13 +81,13 @@ Score MeshPixels::most(double farthest_m) const {
   return Score(std::ceil(std::pow(part, power_) * (1 + 1e-6) * DepthWeight::kOne)) + 1;
 }
 
-std::uint16_t MeshPixels::shown(const MeshTiles& tiles, std::size_t i, float most_facing) const {
+std::uint16_t MeshPixels::shown(const MeshTiles& tiles, std::size_t i, float max_facing) const {
   std::int32_t mask[PixelTile::kPixels];
   mask_of({width_, height_, near_m_, far_m_}, tiles.tiles[i], tiles.unseen[i], tiles.known[i],
           mask);
   unsigned bits = 0;
   for (int p = 0; p < PixelTile::kPixels; ++p) {
-    bits |= unsigned(mask[p] & 1 & int(tiles.unseen[i].facing[p] <= most_facing)) << p;
+    bits |= unsigned(mask[p] & 1 & int(tiles.unseen[i].facing[p] <= max_facing)) << p;
   }
   return std::uint16_t(bits);
 }
@@ -135,4 +135,4 @@ Score unseen_volume(const PinholeCamera& view, const MeshTiles& tiles) {
   return volume_of({k.width, k.height, view.range().near_m, view.range().far_m}, tiles);
 }
 
-}  // namespace vantage::detail
+}  // namespace vantage::planner::detail

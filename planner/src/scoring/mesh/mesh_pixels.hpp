@@ -4,11 +4,11 @@
 #include <span>
 
 #include "vantage/planner/view_scorer.hpp"
+#include "vantage/raycore/advanced/scene.hpp"
+#include "vantage/raycore/advanced/unobserved_space.hpp"
 #include "vantage/raycore/camera.hpp"
-#include "vantage/raycore/scene.hpp"
-#include "vantage/raycore/unobserved_space.hpp"
 
-namespace vantage::detail {
+namespace vantage::planner::detail {
 
 /// Some tiles of an image, and what their pixels meet first: unseen space, and known objects.
 struct MeshTiles {
@@ -29,8 +29,8 @@ class MeshPixels {
   /// No pixel counts more, if nothing unseen is farther than `farthest_m`.
   Score most(double farthest_m) const;
 
-  /// One bit for each pixel of tile `i`: whether it shows unseen space with v up to `most_facing`.
-  std::uint16_t shown(const MeshTiles& tiles, std::size_t i, float most_facing) const;
+  /// One bit for each pixel of tile `i`: whether it shows unseen space with v up to `max_facing`.
+  std::uint16_t shown(const MeshTiles& tiles, std::size_t i, float max_facing) const;
 
  private:
   int width_, height_;
@@ -48,4 +48,4 @@ class MeshPixels {
 /// reveals at most. A pixel counts no more than (E / far)³.
 Score unseen_volume(const PinholeCamera& view, const MeshTiles& tiles);
 
-}  // namespace vantage::detail
+}  // namespace vantage::planner::detail

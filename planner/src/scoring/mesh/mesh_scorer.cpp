@@ -1,4 +1,4 @@
-#include "vantage/planner/mesh_scorer.hpp"
+#include "vantage/planner/advanced/mesh_scorer.hpp"
 
 #include <fmt/format.h>
 
@@ -14,17 +14,17 @@
 #include "scoring/mesh/mesh_pixels.hpp"
 #include "scoring/mesh/unseen_cells.hpp"
 #include "scoring/shadow/depth_weight.hpp"
+#include "vantage/raycore/advanced/unobserved_space.hpp"
 #include "vantage/raycore/error.hpp"
-#include "vantage/raycore/unobserved_space.hpp"
-#include "vantage/volume/classify.hpp"
-#include "vantage/volume/shadow_filter.hpp"
+#include "vantage/volume/advanced/classify.hpp"
+#include "vantage/volume/advanced/shadow_filter.hpp"
 
 namespace vantage {
 namespace {
 
-using detail::MeshPixels;
-using detail::MeshTiles;
-using detail::UnseenTiles;
+using planner::detail::MeshPixels;
+using planner::detail::MeshTiles;
+using planner::detail::UnseenTiles;
 
 constexpr std::size_t kBatchTiles = 32;  // between two looks at `stop`, and at the bound
 constexpr float kShadowFacing = 0.5f;    // v up to which a surface is shadow to the servo
@@ -52,10 +52,10 @@ std::size_t keep_unseen(std::span<PixelTile> tiles, std::span<UnseenHits> hits) 
 }  // namespace
 
 struct MeshScorer::Impl {
-  detail::UnseenCells cells;
-  SeenSpace seen;
+  planner::detail::UnseenCells cells;
+  UnobservedSpace seen;
   std::shared_ptr<const Scene> known;
-  detail::DepthWeight weight;  ///< of volumes, that of their far end
+  planner::detail::DepthWeight weight;  ///< of volumes, that of their far end
   bool by_volume;
   int image_width;
 
@@ -73,7 +73,8 @@ struct MeshScorer::Impl {
   PinholeCamera scored(const PinholeCamera& view) const {
     check(view);
     if (view.intrinsics().width == image_width) return view;
-    return {detail::scaled(view.intrinsics(), image_width), view.T_world_cam(), view.range()};
+    return {planner::detail::scaled(view.intrinsics(), image_width), view.T_world_cam(),
+            view.range()};
   }
 
   MeshPixels pixels(const PinholeCamera& view) const {
@@ -81,7 +82,7 @@ struct MeshScorer::Impl {
   }
 
   Score sum(const PinholeCamera& view, const MeshPixels& rule, const MeshTiles& tiles) const {
-    return by_volume ? detail::unseen_volume(view, tiles) : rule.sum(tiles);
+    return by_volume ? planner::detail::unseen_volume(view, tiles) : rule.sum(tiles);
   }
 
   /// Traces the tiles that may show what is unseen, batch by batch; `visit` gets those of a batch
@@ -128,10 +129,10 @@ MeshScorer::MeshScorer(const SeenWorld& world, const DepthRange& range, double d
   MeshOptions{.image_width = image_width}.check();
   const std::optional<TriangleMesh> shell = shell_of(world);
   const bool by_volume = weight == MeshWeight::volume;
-  impl_.reset(new Impl{detail::UnseenCells(world),
+  impl_.reset(new Impl{planner::detail::UnseenCells(world),
                        {world.lattices, world.work_area, shell ? &*shell : nullptr},
                        known_scene(world.known),
-                       detail::DepthWeight(by_volume ? 3 : depth_power, range),
+                       planner::detail::DepthWeight(by_volume ? 3 : depth_power, range),
                        by_volume,
                        image_width});
 }
@@ -191,11 +192,11 @@ std::vector<ScoreTerm> MeshScorer::terms(const PinholeCamera& given) const {
 }
 
 std::optional<ShadowBounds> MeshScorer::shadow_bounds(const PinholeCamera& view) const {
-  return look(view, std::nullopt).bounds;
+  return observe(view, std::nullopt).bounds;
 }
 
-ShadowSight MeshScorer::look(const PinholeCamera& view,
-                             const std::optional<OutermostShadow>& /*expected*/) const {
+ShadowObservation MeshScorer::observe(const PinholeCamera& view,
+                                      const std::optional<ExtremePoints>& /*expected*/) const {
   impl_->check(view);
   const Intrinsics& k = view.intrinsics();
   const MeshPixels rule = impl_->pixels(view);
@@ -205,14 +206,15 @@ ShadowSight MeshScorer::look(const PinholeCamera& view,
     sum += impl_->sum(view, rule, batch);
     for (std::size_t i = 0; i < batch.tiles.size(); ++i) {
       const unsigned shown = rule.shown(batch, i, kShadowFacing);
-      if (shown != 0) bounds = detail::joined(bounds, detail::bounds_of(batch.tiles[i], shown));
+      if (shown != 0)
+        bounds = planner::detail::joined(bounds, planner::detail::bounds_of(batch.tiles[i], shown));
     }
     return true;
   });
-  ShadowSight sight;
-  if (bounds.right >= 0) sight.bounds = bounds;
-  if (k.width == impl_->image_width) sight.score = sum;
-  return sight;
+  ShadowObservation observation;
+  if (bounds.right >= 0) observation.bounds = bounds;
+  if (k.width == impl_->image_width) observation.score = sum;
+  return observation;
 }
 
 }  // namespace vantage

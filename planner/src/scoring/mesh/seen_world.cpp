@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "vantage/planner/mesh_scorer.hpp"
+#include "vantage/planner/advanced/mesh_scorer.hpp"
 #include "vantage/raycore/error.hpp"
-#include "vantage/volume/carve.hpp"
-#include "vantage/volume/shadow_filter.hpp"
+#include "vantage/volume/advanced/carve.hpp"
+#include "vantage/volume/advanced/shadow_filter.hpp"
 
 namespace vantage {
 namespace {
@@ -30,12 +30,12 @@ KnownObject enlarged(const KnownObject& object, double factor) {
 
 /// Three voxels make the cube's edge: no fewer can be opened with. Work areas may be huge.
 double opening_voxel_m(const Box& work_area, const MeshOptions& options) {
-  constexpr double kMostVoxels = 1 << 24;
-  return std::max(options.opening_m / 3, std::cbrt(work_area.volume_m3() / kMostVoxels));
+  constexpr double kMaxVoxels = 1 << 24;
+  return std::max(options.opening_m / 3, std::cbrt(work_area.volume_m3() / kMaxVoxels));
 }
 
 void expect_depth(const WorldModel& world) {
-  const auto with_depth = [](const Observer& camera) { return camera.depth != nullptr; };
+  const auto with_depth = [](const DepthCamera& camera) { return camera.depth != nullptr; };
   if (std::any_of(world.cameras.begin(), world.cameras.end(), with_depth)) return;
   throw bad_input("method",
                   fmt::format("\"mesh\" looks at depth images, and none of the {} cameras has one; "
@@ -72,7 +72,7 @@ SeenWorld seen_world(const WorldModel& world, const Box& work_area, const MeshOp
   for (const KnownObject& object : world.objects) {
     seen.known.objects.push_back(enlarged(object, options.enlarge));
   }
-  for (const Observer& camera : world.cameras) {
+  for (const DepthCamera& camera : world.cameras) {
     if (camera.depth == nullptr) continue;
     const PosedDepth image(camera.camera, camera.depth);
     if (auto lattice = visibility_lattice(image, work_area, options.visibility)) {
@@ -81,7 +81,7 @@ SeenWorld seen_world(const WorldModel& world, const Box& work_area, const MeshOp
   }
   if (options.opening_m > 0) {
     const auto geometry = GridGeometry::covering(work_area, opening_voxel_m(work_area, options));
-    seen.opened = opened_shadow(*carve(seen.lattices, geometry, seen.known), 1);
+    seen.opened = morphological_open(*carve(seen.lattices, geometry, seen.known), 1);
   }
   return seen;
 }

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cstdint>
 
-namespace vantage::detail {
+namespace vantage::planner::detail {
 namespace {
 
 constexpr int kCellVoxels = 4;  // along an edge
@@ -112,4 +112,4 @@ UnseenTiles UnseenCells::tiles(const PinholeCamera& view) const {
   return result;
 }
 
-}  // namespace vantage::detail
+}  // namespace vantage::planner::detail

@@ -2,12 +2,12 @@
 
 #include <vector>
 
-#include "vantage/planner/mesh_scorer.hpp"
-#include "vantage/raycore/box_projector.hpp"
+#include "vantage/planner/advanced/mesh_scorer.hpp"
+#include "vantage/raycore/advanced/scene.hpp"
 #include "vantage/raycore/camera.hpp"
-#include "vantage/raycore/scene.hpp"
+#include "vantage/raycore/detail/box_projector.hpp"
 
-namespace vantage::detail {
+namespace vantage::planner::detail {
 
 /// The tiles of an image that may show something unseen, in the image's order.
 struct UnseenTiles {
@@ -28,4 +28,4 @@ class UnseenCells {
   std::vector<Extent> cells_;
 };
 
-}  // namespace vantage::detail
+}  // namespace vantage::planner::detail

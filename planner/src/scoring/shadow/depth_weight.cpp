@@ -6,10 +6,10 @@
 #include <bit>
 #include <cmath>
 
+#include "vantage/raycore/detail/multiversion.hpp"
 #include "vantage/raycore/error.hpp"
-#include "vantage/raycore/multiversion.hpp"
 
-namespace vantage::detail {
+namespace vantage::planner::detail {
 namespace {
 
 constexpr double kMaxPower = 16;
@@ -145,4 +145,4 @@ std::uint16_t shadow_pixels(const Intrinsics& image, const DepthRange& range, Ob
   return std::uint16_t(bits);
 }
 
-}  // namespace vantage::detail
+}  // namespace vantage::planner::detail

@@ -4,10 +4,10 @@
 #include <span>
 
 #include "vantage/planner/view_scorer.hpp"
+#include "vantage/raycore/advanced/scene.hpp"
 #include "vantage/raycore/camera.hpp"
-#include "vantage/raycore/scene.hpp"
 
-namespace vantage::detail {
+namespace vantage::planner::detail {
 
 /// What a pixel at some depth counts at most: factor · (depth / far)^power.
 struct WeightBound {
@@ -51,4 +51,4 @@ class DepthWeight {
 std::uint16_t shadow_pixels(const Intrinsics& image, const DepthRange& range, ObjectId shadow,
                             PixelTile tile, const TileHits& hits);
 
-}  // namespace vantage::detail
+}  // namespace vantage::planner::detail

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "vantage/raycore/box_projector.hpp"
+#include "vantage/raycore/detail/box_projector.hpp"
 
-namespace vantage::detail {
+namespace vantage::planner::detail {
 namespace {
 
 // The spans are computed in float, from columns of some thousand pixels.
@@ -245,11 +245,11 @@ void FaceProjector::set_depth(const FlatFaces::Face& face, const Corners& corner
       kFloat * (std::abs(a) + std::abs(b) * image_.width + std::abs(c) * image_.height);
   polygon.at_origin = float(a - float_error);
   const double farthest_m = std::min(corners.farthest_m, window_.farthest_m);
-  polygon.least_inverse = float((1 - std::min(rounding, kFlattest)) * (1 - kFloat) / farthest_m);
+  polygon.min_inverse = float((1 - std::min(rounding, kFlattest)) * (1 - kFloat) / farthest_m);
   polygon.per_u = float(b);
   polygon.per_v = float(c);
   polygon.nearest_m = polygon.grazing ? 0 : corners.nearest_m * (1 - rounding) - margin_m_;
   polygon.farthest_m = corners.farthest_m * (1 + rounding) + margin_m_;
 }
 
-}  // namespace vantage::detail
+}  // namespace vantage::planner::detail

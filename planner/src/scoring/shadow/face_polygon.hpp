@@ -9,7 +9,7 @@
 #include "scoring/shadow/planar_faces.hpp"
 #include "vantage/raycore/camera.hpp"
 
-namespace vantage::detail {
+namespace vantage::planner::detail {
 
 /// An edge of a convex polygon on an image, as the column where it crosses row v:
 /// u = slope · v + offset. Outside `outer` no ray meets the polygon, inside `inner` every ray does.
@@ -25,16 +25,16 @@ struct PixelSpan {
 /// A flat face as it falls on an image: the pixels whose rays may meet it, those whose rays
 /// certainly do, and at which depth at most. Certified: rounding is allowed for.
 struct FacePolygon {
-  static constexpr int kMostEdges = 5;
+  static constexpr int kMaxEdges = 5;
 
   PixelSpan columns, rows;  ///< beyond them, no ray meets it
   PixelSpan certain_rows;   ///< beyond them, no ray is certain to
   int left_edges = 0, right_edges = 0;
-  PolygonEdge left[kMostEdges], right[kMostEdges];
+  PolygonEdge left[kMaxEdges], right[kMaxEdges];
 
   /// 1 / depth is at least at_origin + per_u · u + per_v · v (pixels), for certain pixels.
   float at_origin, per_u, per_v;
-  float least_inverse;   ///< of all depths that count
+  float min_inverse;     ///< of all depths that count
   double nearest_m;      ///< no ray meets it nearer than this, unless it is grazing
   double farthest_m;     ///< nor farther than this
   bool grazing;          ///< seen from so flat that nothing is known of its rays' depths
@@ -108,9 +108,9 @@ class FaceProjector {
  private:
   /// A face's corners, cut off at the near depth.
   struct Corners {
-    static constexpr int kMost = 8;
+    static constexpr int kMax = 8;
     int count;
-    double u[kMost], v[kMost];
+    double u[kMax], v[kMax];
     double top, bottom;
     double nearest_m, farthest_m;
     double margin;  ///< pixels by which rounding may move a ray
@@ -151,7 +151,7 @@ class FaceProjector {
   // above `clip_m_`.
   std::uint32_t loaded_ = 0;
   Eigen::Vector3d outwards_;  ///< the normal, in the camera's frame, of the face that is visited
-  std::array<double, FlatFaces::kMostCorners> u_, v_, depth_;
+  std::array<double, FlatFaces::kMaxCorners> u_, v_, depth_;
 };
 
-}  // namespace vantage::detail
+}  // namespace vantage::planner::detail

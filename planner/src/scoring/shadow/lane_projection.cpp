@@ -1,8 +1,8 @@
 #include "scoring/shadow/lane_projection.hpp"
 
-#include "vantage/raycore/multiversion.hpp"
+#include "vantage/raycore/detail/multiversion.hpp"
 
-namespace vantage::detail {
+namespace vantage::planner::detail {
 namespace {
 
 struct BoxPointers {
@@ -78,4 +78,4 @@ void project_boxes(const Projection& p, const BoxLanes& boxes, std::size_t first
                 images);
 }
 
-}  // namespace vantage::detail
+}  // namespace vantage::planner::detail

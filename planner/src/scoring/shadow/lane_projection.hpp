@@ -8,7 +8,7 @@
 
 // Many points or boxes at a time into one camera, in loops that are vectorised.
 
-namespace vantage::detail {
+namespace vantage::planner::detail {
 
 /// A camera as plain numbers.
 struct Projection {
@@ -38,4 +38,4 @@ struct BoxImages {
 void project_boxes(const Projection& p, const BoxLanes& boxes, std::size_t first,
                    BoxImages& images);
 
-}  // namespace vantage::detail
+}  // namespace vantage::planner::detail

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "vantage/raycore/multiversion.hpp"
+#include "vantage/raycore/detail/multiversion.hpp"
 
-namespace vantage::detail {
+namespace vantage::planner::detail {
 namespace {
 
 constexpr int kRows = CoverBlock::kRows, kColumns = CoverBlock::kColumns;
@@ -23,8 +23,8 @@ struct Drawing {
         weight(w),
         largest(w.factor),
         doubtful(p.grazing ? w.anything : w.uncertain),
-        least(0.25f * p.least_inverse) {
-    for (int factor = 0; factor < w.power; ++factor) largest *= w.per_far / p.least_inverse;
+        least(0.25f * p.min_inverse) {
+    for (int factor = 0; factor < w.power; ++factor) largest *= w.per_far / p.min_inverse;
   }
 };
 
@@ -232,4 +232,4 @@ std::span<const PixelTile> ViewCover::tiles(std::size_t block,
   return room.first(count);
 }
 
-}  // namespace vantage::detail
+}  // namespace vantage::planner::detail

@@ -7,10 +7,10 @@
 
 #include "scoring/shadow/depth_weight.hpp"
 #include "scoring/shadow/face_polygon.hpp"
+#include "vantage/raycore/advanced/scene.hpp"
 #include "vantage/raycore/camera.hpp"
-#include "vantage/raycore/scene.hpp"
 
-namespace vantage::detail {
+namespace vantage::planner::detail {
 
 /// A block of 32 × 16 pixels: for each row, bits for its pixels.
 struct CoverBlock {
@@ -158,4 +158,4 @@ template <float PolygonEdge::*kOffset>
   return float(std::int32_t((x + (x >> 16)) & 63u));
 }
 
-}  // namespace vantage::detail
+}  // namespace vantage::planner::detail

@@ -5,11 +5,11 @@
 
 #include "scoring/voxel/point_hierarchy.hpp"
 
-namespace vantage::detail {
+namespace vantage::planner::detail {
 namespace {
 
-constexpr std::size_t kMostTriangles = 10'000;  // of an object
-constexpr std::size_t kMostOccluders = 100;     // of a scene
+constexpr std::size_t kMaxTriangles = 10'000;  // of an object
+constexpr std::size_t kMaxOccluders = 100;     // of a scene
 
 FaceCorners face_of(const std::array<Eigen::Vector3d, 4>& c) {
   return {c, (c[1] - c[0]).cross(c[2] - c[0]).stableNormalized()};
@@ -32,7 +32,7 @@ bool are_rectangle(const std::array<Eigen::Vector3d, 3>& abc,
 
 void add_faces(const Scene& scene, ObjectId object, std::vector<SizedFace>& faces) {
   const std::size_t count = scene.triangle_count(object);
-  if (count > kMostTriangles) return;
+  if (count > kMaxTriangles) return;
   for (std::size_t i = 0; i < count; ++i) {
     const auto abc = scene.corners(object, i);
     std::array<Eigen::Vector3d, 4> corners{abc[0], abc[1], abc[2], abc[2]};
@@ -64,7 +64,7 @@ FlatFaces::FlatFaces(const std::vector<FaceCorners>& faces) {
                    [&](std::uint32_t a, std::uint32_t b) { return side(a) < side(b); });
   for (std::size_t first = 0; first < order.size();) {
     std::size_t last = first;
-    while (last < std::min(first + kMostFaces, order.size()) &&
+    while (last < std::min(first + kMaxFaces, order.size()) &&
            side(order[last]) == side(order[first])) {
       ++last;
     }
@@ -124,10 +124,10 @@ FlatFaces largest_faces_of(const Scene& scene) {
   std::stable_sort(sized.begin(), sized.end(),
                    [](const SizedFace& a, const SizedFace& b) { return a.area_m2 > b.area_m2; });
   std::vector<FaceCorners> faces;
-  for (std::size_t i = 0; i < std::min(sized.size(), kMostOccluders); ++i) {
+  for (std::size_t i = 0; i < std::min(sized.size(), kMaxOccluders); ++i) {
     faces.push_back(sized[i].face);
   }
   return FlatFaces(faces);
 }
 
-}  // namespace vantage::detail
+}  // namespace vantage::planner::detail

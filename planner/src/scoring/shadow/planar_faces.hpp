@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "scoring/voxel/box_soa.hpp"
-#include "vantage/raycore/scene.hpp"
+#include "vantage/raycore/advanced/scene.hpp"
 #include "vantage/raycore/triangle_mesh.hpp"
 
-namespace vantage::detail {
+namespace vantage::planner::detail {
 
 /// A triangle or a rectangle. Metres, world frame.
 struct FaceCorners {
@@ -29,7 +29,7 @@ struct FlatFaces {
   };
 
   /// Of a group.
-  static constexpr std::size_t kMostFaces = 8, kMostCorners = 4 * kMostFaces;
+  static constexpr std::size_t kMaxFaces = 8, kMaxCorners = 4 * kMaxFaces;
 
   /// Some faces [first, last) and their corners, which no other group has.
   struct Group {
@@ -58,4 +58,4 @@ FlatFaces rectangles_of(const TriangleMesh& faces);
 /// made of very many triangles is left out.
 FlatFaces largest_faces_of(const Scene& scene);
 
-}  // namespace vantage::detail
+}  // namespace vantage::planner::detail

@@ -11,7 +11,7 @@
 #include "scoring/shadow/depth_weight.hpp"
 #include "scoring/shadow/masked_rasterizer.hpp"
 
-namespace vantage::detail {
+namespace vantage::planner::detail {
 namespace {
 
 constexpr int kSide = PixelTile::kSide;
@@ -29,7 +29,7 @@ class BorderScan {
         projector_(project_shadow(view, faces, scene.grid())),
         bounds_{view.intrinsics().width, -1, view.intrinsics().height, -1} {}
 
-  ShadowSight find(const std::optional<OutermostShadow>& expected) {
+  ShadowObservation find(const std::optional<ExtremePoints>& expected) {
     open_image();
     if (columns_.last < 0) return {};
     if (expected) trace_at(*expected);
@@ -53,7 +53,7 @@ class BorderScan {
       draw_groups([&](const Group& g) { return g.columns.last >= kSide * column; });
       trace_column(column, [&](const ShadowBounds& b) { return b.right > bounds_.right; });
     }
-    return {.bounds = bounds_, .outermost = outermost_};
+    return {.bounds = bounds_, .extremes = extremes_};
   }
 
  private:
@@ -100,8 +100,8 @@ class BorderScan {
   }
 
   /// Looks first where the shadow's outermost points are expected to be.
-  void trace_at(const OutermostShadow& points) {
-    static_assert(kBatchTiles >= std::tuple_size_v<OutermostShadow>);
+  void trace_at(const ExtremePoints& points) {
+    static_assert(kBatchTiles >= std::tuple_size_v<ExtremePoints>);
     for (const Eigen::Vector3d& point : points) {
       const auto at = view_.project(point);
       if (!at) continue;
@@ -167,8 +167,8 @@ class BorderScan {
     for (unsigned pixels = shown; pixels != 0; pixels &= pixels - 1) {
       const int i = std::countr_zero(pixels);
       const int u = kSide * tile.column + i % kSide, v = kSide * tile.row + i / kSide;
-      const auto keep = [&](bool outermost, std::size_t border) {
-        if (outermost) outermost_[border] = view_.unproject(u, v, double(hits.t[i]));
+      const auto keep = [&](bool extremes, std::size_t border) {
+        if (extremes) extremes_[border] = view_.unproject(u, v, double(hits.t[i]));
       };
       keep(u == b.left && b.left < before.left, 0);
       keep(u == b.right && b.right > before.right, 1);
@@ -186,7 +186,7 @@ class BorderScan {
   std::optional<ViewCover> cover_;
   std::vector<std::uint8_t> traced_;  ///< tiles, row by row
   ShadowBounds bounds_;
-  OutermostShadow outermost_;  ///< left, right, top, bottom
+  ExtremePoints extremes_;  ///< left, right, top, bottom
   bool top_is_known_ = false, bottom_is_known_ = false, left_is_known_ = false;
   std::array<PixelTile, kBatchTiles> batch_;
   std::array<TileHits, kBatchTiles> hits_;
@@ -195,10 +195,10 @@ class BorderScan {
 
 }  // namespace
 
-ShadowSight find_shadow_border(const PlanningScene& scene, const PinholeCamera& view,
-                               const ShadowFaces& faces,
-                               const std::optional<OutermostShadow>& expected) {
+ShadowObservation find_shadow_border(const PlanningScene& scene, const PinholeCamera& view,
+                                     const ShadowFaces& faces,
+                                     const std::optional<ExtremePoints>& expected) {
   return BorderScan(scene, view, faces).find(expected);
 }
 
-}  // namespace vantage::detail
+}  // namespace vantage::planner::detail

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace vantage::detail {
+namespace vantage::planner::detail {
 namespace {
 
 /// Whether there is shadow around a point: its back faces are then seen as well.
@@ -46,7 +46,7 @@ FacePolygon whole_image(const PinholeCamera& view) {
   all.rows = {0, view.intrinsics().height - 1};
   all.certain_rows = {0, -1};
   all.grazing = true;
-  all.least_inverse = float(1 / view.range().far_m);
+  all.min_inverse = float(1 / view.range().far_m);
   all.farthest_m = view.range().far_m;
   return all;
 }
@@ -152,4 +152,4 @@ void ShadowInView::sort() {
   }
 }
 
-}  // namespace vantage::detail
+}  // namespace vantage::planner::detail

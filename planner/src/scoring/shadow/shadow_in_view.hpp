@@ -5,10 +5,10 @@
 
 #include "scoring/shadow/face_polygon.hpp"
 #include "scoring/shadow/planar_faces.hpp"
-#include "vantage/planner/planning_scene.hpp"
+#include "vantage/planner/advanced/planning_scene.hpp"
 #include "vantage/volume/state_grid.hpp"
 
-namespace vantage::detail {
+namespace vantage::planner::detail {
 
 /// What is known before any view: the shadow's faces, and those of what may hide it.
 struct ShadowFaces {
@@ -72,4 +72,4 @@ struct ShadowInView {
   std::vector<double> hidden_from_;  ///< of each occluder, as of `hidden_from_m`
 };
 
-}  // namespace vantage::detail
+}  // namespace vantage::planner::detail

@@ -1,4 +1,4 @@
-#include "vantage/planner/shadow_scorer.hpp"
+#include "vantage/planner/advanced/shadow_scorer.hpp"
 
 #include <fmt/format.h>
 
@@ -16,8 +16,8 @@
 namespace vantage {
 namespace {
 
-using detail::ShadowInView;
-using detail::ViewCover;
+using planner::detail::ShadowInView;
+using planner::detail::ViewCover;
 
 // Blocks between two looks at `stop`: four thousand rays at most.
 constexpr std::size_t kBlocksPerLook = 8;
@@ -42,7 +42,7 @@ constexpr double kRounding = 1 + 1e-4;  // of weights, which are computed in flo
 
 /// How many pixels of the image may show a face of the groups, at most: counted in squares, 64 to
 /// the longer side of the image.
-double pixels_of(const std::vector<detail::FaceProjector::GroupInView>& groups,
+double pixels_of(const std::vector<planner::detail::FaceProjector::GroupInView>& groups,
                  const Intrinsics& image) {
   constexpr int kSquares = 64;
   const int side = (std::max(image.width, image.height) + kSquares - 1) / kSquares;
@@ -69,8 +69,8 @@ Score sum_of(const std::vector<BoundedBlock>& blocks) {
 
 struct ShadowScorer::Impl {
   PlanningScene scene;
-  detail::ShadowFaces faces;
-  detail::DepthWeight weight;
+  planner::detail::ShadowFaces faces;
+  planner::detail::DepthWeight weight;
 
   /// @throws Error bad_input for a view with another depth range: its weights would be others.
   void check(const PinholeCamera& view) const {
@@ -83,26 +83,27 @@ struct ShadowScorer::Impl {
   }
 
   /// As if all that the groups' rectangles may show were as far away as any shadow.
-  Score rough_bound(const PinholeCamera& view, const detail::FaceProjector& shadow) const {
-    if (detail::too_uncertain(shadow, view) || shadow.may_be_grazing()) return kNoBound;
+  Score rough_bound(const PinholeCamera& view, const planner::detail::FaceProjector& shadow) const {
+    if (planner::detail::too_uncertain(shadow, view) || shadow.may_be_grazing()) return kNoBound;
     const double pixels = pixels_of(shadow.groups(), view.intrinsics());
     return Score(pixels * (double(weight.bound(shadow.farthest_m()).uncertain) * kRounding + 1));
   }
 
   /// What the view may show of the shadow; nothing if it certainly shows none.
   std::optional<ViewCover> bounded_cover(const PinholeCamera& view) const {
-    detail::FaceProjector projector = detail::project_shadow(view, faces, scene.grid());
+    planner::detail::FaceProjector projector =
+        planner::detail::project_shadow(view, faces, scene.grid());
     return bounded_cover(view, projector);
   }
 
   std::optional<ViewCover> bounded_cover(const PinholeCamera& view,
-                                         detail::FaceProjector& projector) const {
+                                         planner::detail::FaceProjector& projector) const {
     const ShadowInView shadow(view, faces, projector);
     if (shadow.shadow_count == 0) return std::nullopt;
-    const detail::WeightBound bound = weight.bound(shadow.farthest_m);
+    const planner::detail::WeightBound bound = weight.bound(shadow.farthest_m);
     ViewCover cover(shadow.columns, shadow.rows);
     for (const std::uint32_t i : shadow.order) {
-      const detail::FacePolygon& polygon = shadow.polygons[i];
+      const planner::detail::FacePolygon& polygon = shadow.polygons[i];
       i < shadow.shadow_count ? cover.draw(polygon, bound) : cover.draw_occluder(polygon);
     }
     return cover;
@@ -136,7 +137,8 @@ struct ShadowScorer::Impl {
 };
 
 ShadowScorer::ShadowScorer(const PlanningScene& scene, const DepthRange& range, double depth_power)
-    : impl_(new Impl{scene, detail::ShadowFaces(scene), detail::DepthWeight(depth_power, range)}) {}
+    : impl_(new Impl{scene, planner::detail::ShadowFaces(scene),
+                     planner::detail::DepthWeight(depth_power, range)}) {}
 
 ShadowScorer::~ShadowScorer() = default;
 
@@ -150,7 +152,8 @@ Score ShadowScorer::upper_bound(const PinholeCamera& view) const {
 
 Score ShadowScorer::upper_bound_if_needed(const PinholeCamera& view, Score needed) const {
   impl_->check(view);
-  detail::FaceProjector shadow = detail::project_shadow(view, impl_->faces, impl_->scene.grid());
+  planner::detail::FaceProjector shadow =
+      planner::detail::project_shadow(view, impl_->faces, impl_->scene.grid());
   if (needed > 0) {
     const Score rough = impl_->rough_bound(view, shadow);
     if (rough < needed) return rough;
@@ -194,7 +197,8 @@ std::vector<ScoreTerm> ShadowScorer::terms(const PinholeCamera& view) const {
     impl_->scene.surfaces().first_hits(view, tiles, block_hits);
     sum += impl_->weight.sum(image, shadow, tiles, block_hits);
     for (std::size_t i = 0; i < tiles.size(); ++i) {
-      unsigned shown = detail::shadow_pixels(image, view.range(), shadow, tiles[i], hits[i]);
+      unsigned shown =
+          planner::detail::shadow_pixels(image, view.range(), shadow, tiles[i], hits[i]);
       pixels += Score(std::popcount(shown));
       for (; shown != 0; shown &= shown - 1) depths_m += double(hits[i].t[std::countr_zero(shown)]);
     }
@@ -207,12 +211,12 @@ std::vector<ScoreTerm> ShadowScorer::terms(const PinholeCamera& view) const {
 }
 
 std::optional<ShadowBounds> ShadowScorer::shadow_bounds(const PinholeCamera& view) const {
-  return look(view, std::nullopt).bounds;
+  return observe(view, std::nullopt).bounds;
 }
 
-ShadowSight ShadowScorer::look(const PinholeCamera& view,
-                               const std::optional<OutermostShadow>& expected) const {
-  return detail::find_shadow_border(impl_->scene, view, impl_->faces, expected);
+ShadowObservation ShadowScorer::observe(const PinholeCamera& view,
+                                        const std::optional<ExtremePoints>& expected) const {
+  return planner::detail::find_shadow_border(impl_->scene, view, impl_->faces, expected);
 }
 
 }  // namespace vantage

@@ -1,6 +1,6 @@
 #include "scoring/voxel/box_soa.hpp"
 
-namespace vantage::detail {
+namespace vantage::planner::detail {
 
 BoxLanes::BoxLanes(std::size_t count) : size(count) {
   const std::size_t filled = (count + kBoxLanes - 1) / kBoxLanes * kBoxLanes;
@@ -15,4 +15,4 @@ void BoxLanes::set(std::size_t i, const Eigen::Vector3d& min, const Eigen::Vecto
   half_x[i] = half.x(), half_y[i] = half.y(), half_z[i] = half.z();
 }
 
-}  // namespace vantage::detail
+}  // namespace vantage::planner::detail

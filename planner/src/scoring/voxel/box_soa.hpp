@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace vantage::detail {
+namespace vantage::planner::detail {
 
 /// Boxes are tested so many at once.
 inline constexpr std::size_t kBoxLanes = 8;
@@ -19,4 +19,4 @@ struct BoxLanes {
   void set(std::size_t i, const Eigen::Vector3d& min, const Eigen::Vector3d& max);
 };
 
-}  // namespace vantage::detail
+}  // namespace vantage::planner::detail

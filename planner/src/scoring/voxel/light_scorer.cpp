@@ -5,16 +5,16 @@
 #include <cmath>
 #include <vector>
 
-#include "vantage/planner/light_scorer.hpp"
-#include "vantage/raycore/box_projector.hpp"
+#include "vantage/planner/advanced/light_scorer.hpp"
+#include "vantage/raycore/detail/box_projector.hpp"
 #include "vantage/raycore/triangle_mesh.hpp"
-#include "vantage/volume/classify.hpp"
+#include "vantage/volume/advanced/classify.hpp"
 
-namespace vantage::detail {
+namespace vantage::planner::detail {
 namespace {
 
 constexpr double kAreaPerPoint = 2e-6;
-constexpr double kMostPoints = 1 << 17;
+constexpr double kMaxPoints = 1 << 17;
 
 using Polygon = std::vector<Eigen::Vector3d>;
 
@@ -83,7 +83,7 @@ SurfaceSamples surface_samples(const WorldModel& world, const Box& inside) {
   const std::vector<Patch> patches = patches_inside(world, inside);
   double area = 0;
   for (const Patch& patch : patches) area += patch.area;
-  SurfaceSamples samples{{}, std::max(kAreaPerPoint, area / kMostPoints)};
+  SurfaceSamples samples{{}, std::max(kAreaPerPoint, area / kMaxPoints)};
   const double farthest =
       std::max(inside.min().cwiseAbs().maxCoeff(), inside.max().cwiseAbs().maxCoeff());
   // As little as rays can tell: a face seen edge-on from behind would show a strip of its points
@@ -101,7 +101,7 @@ SurfaceSamples surface_samples(const WorldModel& world, const Box& inside) {
   return samples;
 }
 
-}  // namespace vantage::detail
+}  // namespace vantage::planner::detail
 
 namespace vantage {
 namespace {
@@ -111,7 +111,7 @@ VisiblePoints in_the_dark(const Points& samples, const WorldModel& world) {
   const std::shared_ptr<const Scene> known = known_scene(world);
   const VisiblePoints all(samples, known);
   std::vector<std::uint8_t> lit(samples.size());
-  for (const Observer& lamp : world.cameras) {
+  for (const DepthCamera& lamp : world.cameras) {
     const std::vector<std::uint8_t> seen = all.visible(lamp.camera);
     for (std::size_t i = 0; i < lit.size(); ++i) lit[i] |= seen[i];
   }
@@ -125,10 +125,10 @@ VisiblePoints in_the_dark(const Points& samples, const WorldModel& world) {
 }  // namespace
 
 LightScorer::LightScorer(const PlanningScene& scene, const WorldModel& world)
-    : LightScorer(detail::surface_samples(world, scene.grid().geometry().box()), world) {}
+    : LightScorer(planner::detail::surface_samples(world, scene.grid().geometry().box()), world) {}
 
 // What faces away needs no test of its own: the surface itself lies between, as it does for a lamp.
-LightScorer::LightScorer(const detail::SurfaceSamples& samples, const WorldModel& world)
+LightScorer::LightScorer(const planner::detail::SurfaceSamples& samples, const WorldModel& world)
     : area_per_point_m2_(samples.area_per_point_m2), dark_(in_the_dark(samples.points, world)) {}
 
 Score LightScorer::upper_bound(const PinholeCamera& view) const {

@@ -4,7 +4,7 @@
 #include "vantage/raycore/points.hpp"
 #include "vantage/raycore/world_model.hpp"
 
-namespace vantage::detail {
+namespace vantage::planner::detail {
 
 /// Points spread evenly over surfaces, each for the same area.
 struct SurfaceSamples {
@@ -16,4 +16,4 @@ struct SurfaceSamples {
 /// surface on its outer side: a point for every 2 mm², but no more than about 130,000 of them.
 SurfaceSamples surface_samples(const WorldModel& world, const Box& inside);
 
-}  // namespace vantage::detail
+}  // namespace vantage::planner::detail

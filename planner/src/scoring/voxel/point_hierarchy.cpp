@@ -6,12 +6,12 @@
 #include <numeric>
 #include <utility>
 
-namespace vantage::detail {
+namespace vantage::planner::detail {
 namespace {
 
 /// More points than this stay as they are: grids hand them out block by block, which will do where
 /// sorting would take seconds.
-constexpr std::size_t kMostSorted = std::size_t(1) << 22;
+constexpr std::size_t kMaxSorted = std::size_t(1) << 22;
 
 /// Two zero bits between each of the lower 21 bits of `v`.
 std::uint64_t with_gaps(std::uint64_t v) {
@@ -26,7 +26,7 @@ std::uint64_t with_gaps(std::uint64_t v) {
 }  // namespace
 
 std::vector<std::uint32_t> z_curve_order(PointsView points) {
-  if (points.size > kMostSorted) {
+  if (points.size > kMaxSorted) {
     std::vector<std::uint32_t> order(points.size);
     std::iota(order.begin(), order.end(), 0u);
     return order;
@@ -126,4 +126,4 @@ std::size_t PointPackets::points_below(std::size_t level, std::size_t box) const
   return std::min(each, size - box * each);
 }
 
-}  // namespace vantage::detail
+}  // namespace vantage::planner::detail

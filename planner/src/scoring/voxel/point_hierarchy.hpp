@@ -7,7 +7,7 @@
 #include "scoring/voxel/box_soa.hpp"
 #include "vantage/raycore/points.hpp"
 
-namespace vantage::detail {
+namespace vantage::planner::detail {
 
 /// The points' places along a Z-shaped curve through their box, so that neighbours in the order are
 /// neighbours in space; among equals as given.
@@ -48,4 +48,4 @@ struct PointPackets {
   std::size_t points_below(std::size_t level, std::size_t box) const;
 };
 
-}  // namespace vantage::detail
+}  // namespace vantage::planner::detail

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "vantage/raycore/box_projector.hpp"
-#include "vantage/raycore/multiversion.hpp"
+#include "vantage/raycore/detail/box_projector.hpp"
+#include "vantage/raycore/detail/multiversion.hpp"
 
-namespace vantage::detail {
+namespace vantage::planner::detail {
 namespace {
 
 struct Lanes {
@@ -67,4 +67,4 @@ std::array<InView, kBlocksPerParent> ViewFrustum::test(const BoxLanes& boxes,
   return result;
 }
 
-}  // namespace vantage::detail
+}  // namespace vantage::planner::detail

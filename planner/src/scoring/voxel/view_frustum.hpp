@@ -8,7 +8,7 @@
 #include "scoring/voxel/point_hierarchy.hpp"
 #include "vantage/raycore/camera.hpp"
 
-namespace vantage::detail {
+namespace vantage::planner::detail {
 
 /// How much of a box is in view, for certain.
 enum class InView : std::uint8_t { none, some, all };
@@ -56,4 +56,4 @@ void for_each_box(const PointPackets& set, const ViewFrustum& frustum, const Vis
   if (set.size > 0) descend(descend, set.levels.size() - 1, 0);
 }
 
-}  // namespace vantage::detail
+}  // namespace vantage::planner::detail

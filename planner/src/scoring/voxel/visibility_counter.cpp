@@ -4,13 +4,13 @@
 #include <bit>
 #include <cstring>
 
-#include "vantage/raycore/multiversion.hpp"
+#include "vantage/raycore/detail/multiversion.hpp"
 
-namespace vantage::detail {
+namespace vantage::planner::detail {
 namespace {
 
 // Some 4,000 rays: small enough to stop within a fraction of a millisecond.
-constexpr std::size_t kMostPackets = 256;
+constexpr std::size_t kMaxPackets = 256;
 // Fewer, or much fewer than were traced before, are not worth the look at the bounds in between.
 constexpr std::size_t kFewestPackets = 4;
 
@@ -103,8 +103,8 @@ std::vector<InView> ViewCounter::blocks_found() const {
 std::size_t ViewCounter::next_batch_size() const {
   Score least = ~Score(0);
   for (const View& view : active_) least = std::min(least, view.bound - needed_[view.index]);
-  const std::size_t wanted = std::size_t(std::min<Score>(least / kPacketWidth + 1, kMostPackets));
-  const std::size_t worth_it = std::max(kFewestPackets, std::min(done_, kMostPackets));
+  const std::size_t wanted = std::size_t(std::min<Score>(least / kPacketWidth + 1, kMaxPackets));
+  const std::size_t worth_it = std::max(kFewestPackets, std::min(done_, kMaxPackets));
   return std::min(std::max(wanted, worth_it), set_.packets() - done_);
 }
 
@@ -166,4 +166,4 @@ std::vector<std::uint16_t> in_view_masks(const PointPackets& set, const PinholeC
   return masks;
 }
 
-}  // namespace vantage::detail
+}  // namespace vantage::planner::detail

@@ -7,11 +7,11 @@
 #include "scoring/voxel/point_hierarchy.hpp"
 #include "scoring/voxel/view_frustum.hpp"
 #include "vantage/planner/view_scorer.hpp"
+#include "vantage/raycore/advanced/scene.hpp"
 #include "vantage/raycore/camera.hpp"
-#include "vantage/raycore/scene.hpp"
 #include "vantage/raycore/stop_token.hpp"
 
-namespace vantage::detail {
+namespace vantage::planner::detail {
 
 /// Counts what views from one place see of a set of points, packet by packet of it. Every packet is
 /// traced once for all views. What is known so far bounds each view's count from above: a view that
@@ -64,4 +64,4 @@ class ViewCounter {
 /// For each packet of `set.spread` the points that are in view.
 std::vector<std::uint16_t> in_view_masks(const PointPackets& set, const PinholeCamera& view);
 
-}  // namespace vantage::detail
+}  // namespace vantage::planner::detail

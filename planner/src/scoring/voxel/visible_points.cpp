@@ -1,4 +1,4 @@
-#include "vantage/planner/visible_points.hpp"
+#include "vantage/planner/advanced/visible_points.hpp"
 
 #include <fmt/format.h>
 
@@ -41,12 +41,12 @@ void check_views(std::span<const PinholeCamera> views, std::size_t needed, std::
 
 struct VisiblePoints::Impl {
   std::shared_ptr<const Scene> occluders;
-  detail::PointPackets set;
+  planner::detail::PointPackets set;
 };
 
 VisiblePoints::VisiblePoints(Points points, std::shared_ptr<const Scene> occluders)
     : impl_(std::make_unique<const Impl>(
-          Impl{std::move(occluders), detail::PointPackets(checked(points))})) {}
+          Impl{std::move(occluders), planner::detail::PointPackets(checked(points))})) {}
 VisiblePoints::~VisiblePoints() = default;
 VisiblePoints::VisiblePoints(VisiblePoints&&) noexcept = default;
 VisiblePoints& VisiblePoints::operator=(VisiblePoints&&) noexcept = default;
@@ -56,13 +56,14 @@ std::size_t VisiblePoints::size() const noexcept {
 }
 
 Score VisiblePoints::upper_bound(const PinholeCamera& view) const {
-  const detail::PointPackets& set = impl_->set;
-  const detail::ViewFrustum frustum(view, set.largest_coordinate);
+  const planner::detail::PointPackets& set = impl_->set;
+  const planner::detail::ViewFrustum frustum(view, set.largest_coordinate);
   Score bound = 0;
-  detail::for_each_box(set, frustum, [&](std::size_t level, std::size_t box, detail::InView in) {
-    if (in != detail::InView::none) bound += set.points_below(level, box);
-    return true;
-  });
+  planner::detail::for_each_box(
+      set, frustum, [&](std::size_t level, std::size_t box, planner::detail::InView in) {
+        if (in != planner::detail::InView::none) bound += set.points_below(level, box);
+        return true;
+      });
   return bound;
 }
 
@@ -70,11 +71,11 @@ void VisiblePoints::count(std::span<const PinholeCamera> views, std::span<const 
                           std::span<ScoreBound> results, const StopToken& stop) const {
   check_views(views, needed.size(), results.size());
   if (views.empty()) return;
-  detail::ViewCounter(impl_->set, *impl_->occluders, views, needed).run(stop, results);
+  planner::detail::ViewCounter(impl_->set, *impl_->occluders, views, needed).run(stop, results);
 }
 
 std::vector<std::uint8_t> VisiblePoints::visible(const PinholeCamera& view) const {
-  const detail::PointPackets& set = impl_->set;
+  const planner::detail::PointPackets& set = impl_->set;
   std::vector<std::uint8_t> result(set.size);
   const std::vector<std::uint16_t> in_view = in_view_masks(set, view);
   std::vector<std::uint16_t> hidden(set.packets());

@@ -1,4 +1,4 @@
-#include "vantage/planner/voxel_scorer.hpp"
+#include "vantage/planner/advanced/voxel_scorer.hpp"
 
 #include <algorithm>
 

@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <string_view>
 
-#include "vantage/raycore/api.hpp"
+#include "vantage/raycore/export.hpp"
 
 namespace vantage {
 

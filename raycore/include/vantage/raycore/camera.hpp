@@ -6,7 +6,7 @@
 #include <span>
 #include <string_view>
 
-#include "vantage/raycore/api.hpp"
+#include "vantage/raycore/export.hpp"
 #include "vantage/raycore/points.hpp"
 #include "vantage/raycore/pose.hpp"
 

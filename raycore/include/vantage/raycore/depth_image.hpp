@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
-#include "vantage/raycore/api.hpp"
 #include "vantage/raycore/camera.hpp"
+#include "vantage/raycore/export.hpp"
 #include "vantage/raycore/image.hpp"
 
 namespace vantage {
@@ -27,7 +27,7 @@ class VANTAGE_API DepthImage {
 
   /// Raw counts times `depth_scale_mm` are millimetres; a count of 0 is unknown.
   /// @throws Error bad_input unless `depth_scale_mm` is finite and positive.
-  static DepthImage from_counts(const CountImage& counts, double depth_scale_mm,
+  static DepthImage from_counts(const RawDepthImage& counts, double depth_scale_mm,
                                 std::string_view where = "depth");
 
   int width() const noexcept { return width_; }

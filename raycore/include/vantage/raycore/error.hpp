@@ -3,7 +3,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "vantage/raycore/api.hpp"
+#include "vantage/raycore/export.hpp"
 
 namespace vantage {
 

@@ -27,7 +27,7 @@ struct Image {
   }
 };
 
-using ColorImage = Image<std::uint8_t, 3>;   ///< sRGB, red first
-using CountImage = Image<std::uint16_t, 1>;  ///< raw depth as sensors store it
+using ColorImage = Image<std::uint8_t, 3>;      ///< sRGB, red first
+using RawDepthImage = Image<std::uint16_t, 1>;  ///< raw depth as sensors store it
 
 }  // namespace vantage

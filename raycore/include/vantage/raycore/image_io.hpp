@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "vantage/raycore/api.hpp"
+#include "vantage/raycore/export.hpp"
 #include "vantage/raycore/image.hpp"
 
 namespace vantage {
@@ -12,11 +12,11 @@ namespace vantage {
 VANTAGE_API void write_png(const std::filesystem::path& path, const ColorImage& image);
 
 /// A 16-bit grey PNG.
-VANTAGE_API void write_png(const std::filesystem::path& path, const CountImage& image);
+VANTAGE_API void write_png(const std::filesystem::path& path, const RawDepthImage& image);
 
 /// Reads a 16-bit grey PNG, as depth is stored.
 /// @throws Error bad_input if the file is missing, no PNG, truncated, corrupt, of another bit depth
 /// or colour type (8-bit depth is never scaled up), or above 16384 pixels along a side.
-VANTAGE_API CountImage read_png_counts(const std::filesystem::path& path);
+VANTAGE_API RawDepthImage read_png_counts(const std::filesystem::path& path);
 
 }  // namespace vantage

@@ -4,8 +4,8 @@
 #include <string>
 #include <string_view>
 
-#include "vantage/raycore/api.hpp"
 #include "vantage/raycore/camera.hpp"
+#include "vantage/raycore/export.hpp"
 
 namespace vantage {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "vantage/raycore/api.hpp"
+#include "vantage/raycore/export.hpp"
 #include "vantage/raycore/triangle_mesh.hpp"
 
 namespace vantage {

@@ -4,7 +4,7 @@
 #include <Eigen/Geometry>
 #include <string_view>
 
-#include "vantage/raycore/api.hpp"
+#include "vantage/raycore/export.hpp"
 
 namespace vantage {
 

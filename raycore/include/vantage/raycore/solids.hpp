@@ -2,7 +2,7 @@
 
 #include <Eigen/Core>
 
-#include "vantage/raycore/api.hpp"
+#include "vantage/raycore/export.hpp"
 #include "vantage/raycore/triangle_mesh.hpp"
 
 namespace vantage {

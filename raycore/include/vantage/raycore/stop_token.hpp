@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <memory>
 
-#include "vantage/raycore/api.hpp"
+#include "vantage/raycore/export.hpp"
 
 namespace vantage {
 

@@ -32,7 +32,7 @@ struct KnownObject {
 };
 
 /// A camera that looks at the workcell, with what it measured if it measures depth.
-struct Observer {
+struct DepthCamera {
   std::string name;
   PinholeCamera camera;
   std::shared_ptr<const DepthImage> depth;  ///< null for a camera without depth
@@ -42,7 +42,7 @@ struct Observer {
 struct WorldModel {
   std::vector<KnownObject> objects;
   std::vector<KnownObject> static_structures;
-  std::vector<Observer> cameras;
+  std::vector<DepthCamera> cameras;
 };
 
 }  // namespace vantage

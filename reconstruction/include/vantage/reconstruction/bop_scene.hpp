@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "vantage/raycore/api.hpp"
 #include "vantage/raycore/camera.hpp"
 #include "vantage/raycore/depth_image.hpp"
+#include "vantage/raycore/export.hpp"
 
 namespace vantage {
 

@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "vantage/raycore/api.hpp"
+#include "vantage/raycore/export.hpp"
 #include "vantage/raycore/image.hpp"
 
 namespace vantage {

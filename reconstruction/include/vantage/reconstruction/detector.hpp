@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "vantage/raycore/api.hpp"
+#include "vantage/raycore/export.hpp"
 #include "vantage/raycore/image.hpp"
 #include "vantage/raycore/lens.hpp"
 #include "vantage/reconstruction/observation.hpp"

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "vantage/raycore/api.hpp"
+#include "vantage/raycore/export.hpp"
 #include "vantage/reconstruction/object_type.hpp"
 
 namespace vantage {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "vantage/raycore/api.hpp"
+#include "vantage/raycore/export.hpp"
 #include "vantage/reconstruction/observation.hpp"
 
 namespace vantage {
@@ -15,7 +15,7 @@ struct LocateOptions {
   double inlier_px = 3.0;  ///< a marker with a corner farther off is taken for a wrong one
   /// Two poses that explain the corners nearly equally well are told apart only if the worse one's
   /// chi-square is above the better one's by this; 13.8 is a chance of 1 : 1000 for a wrong choice.
-  double least_evidence = 13.8;
+  double min_evidence = 13.8;
 };
 
 /// A pose of a camera that the markers of the board speak for.

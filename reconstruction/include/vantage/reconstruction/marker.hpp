@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "vantage/raycore/api.hpp"
+#include "vantage/raycore/export.hpp"
 #include "vantage/raycore/pose.hpp"
 
 namespace vantage {

@@ -8,7 +8,7 @@
 #include <variant>
 #include <vector>
 
-#include "vantage/raycore/api.hpp"
+#include "vantage/raycore/export.hpp"
 #include "vantage/raycore/triangle_mesh.hpp"
 #include "vantage/reconstruction/marker.hpp"
 

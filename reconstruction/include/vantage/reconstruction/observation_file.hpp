@@ -4,7 +4,7 @@
 #include <map>
 #include <vector>
 
-#include "vantage/raycore/api.hpp"
+#include "vantage/raycore/export.hpp"
 #include "vantage/reconstruction/observation.hpp"
 
 namespace vantage {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "vantage/raycore/api.hpp"
+#include "vantage/raycore/export.hpp"
 #include "vantage/raycore/stop_token.hpp"
 #include "vantage/raycore/world_model.hpp"
 #include "vantage/reconstruction/knowledge_base.hpp"
@@ -70,8 +70,8 @@ struct ReconstructOptions {
   /// Multi-view PnP, voting: residuals above it belong to something else. Multi-view PnP allows for
   /// three standard deviations more where the pose of a camera has a covariance.
   double inlier_px = 3.0;
-  double merge_m = 0.01;         ///< voting: votes that are nearer may be for one object
-  double least_evidence = 13.8;  ///< see LocateOptions
+  double merge_m = 0.01;       ///< voting: votes that are nearer may be for one object
+  double min_evidence = 13.8;  ///< see LocateOptions
   /// An object that a single camera sees by a single marker may be tilted two ways. Off: such
   /// objects are left out, unless one of the two explains its corners clearly better.
   bool keep_ambiguous = true;

@@ -28,15 +28,15 @@ PlanningCell small_cell(const TemporaryFolder& folder, const std::string& depth)
   return load_planning_cell(planning_cell_name(file.string() + depth), DepthKind::none, 0);
 }
 
-PlanningSettings small_settings(int servo) {
-  PlanningSettings settings;
+PlanningBenchmarkOptions small_settings(int servo) {
+  PlanningBenchmarkOptions settings;
   choose({"shadowD0", "light"}, {"production"}, settings);
   settings.servo = {.iterations = servo, .image_width = 40};
   settings.polish = {.views = 0};
   return settings;
 }
 
-SceneEvaluation evaluate(const PlanningCell& cell, const PlanningSettings& settings) {
+SceneEvaluation evaluate(const PlanningCell& cell, const PlanningBenchmarkOptions& settings) {
   return evaluate_planning(cell, settings, {}).scene;
 }
 
@@ -77,7 +77,7 @@ TEST_CASE("methods by their names, with the power of the depth in it") {
 }
 
 TEST_CASE("voxel is always there and first, as is the full set") {
-  PlanningSettings settings;
+  PlanningBenchmarkOptions settings;
   choose({"light", "shadowD6"}, {"production", "full"}, settings);
   REQUIRE(settings.methods.size() == 3);
   CHECK(settings.methods[0].name == "voxel");
@@ -140,7 +140,7 @@ TEST_CASE("with servo: no method beats the voxel method by vox score, or the tru
 TEST_CASE("a polished pick is the last of its steps, and better by its method than the others") {
   const TemporaryFolder folder;
   const PlanningCell cell = small_cell(folder, "+ideal");
-  PlanningSettings settings = small_settings(2);
+  PlanningBenchmarkOptions settings = small_settings(2);
   const SceneEvaluation before = evaluate(cell, settings);
   settings.polish = {.views = 2};
   const SceneEvaluation scene = evaluate(cell, settings);
@@ -183,7 +183,7 @@ TEST_CASE("a scene in which nothing known hides anything gets no view from voxel
 TEST_CASE("another voxel size, and everything timed several times: the same picks each time") {
   const TemporaryFolder folder;
   const PlanningCell cell = small_cell(folder, "");
-  PlanningSettings settings = small_settings(1);
+  PlanningBenchmarkOptions settings = small_settings(1);
   settings.voxel_size_m = 0.04;
   settings.repeat = 3;
   const SceneEvaluation scene = evaluate(cell, settings), again = evaluate(cell, settings);

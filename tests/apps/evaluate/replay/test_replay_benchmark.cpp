@@ -5,9 +5,9 @@
 
 #include <algorithm>
 
+#include "vantage/raycore/advanced/scene_builder.hpp"
 #include "vantage/raycore/error.hpp"
-#include "vantage/raycore/scene_builder.hpp"
-#include "vantage/volume/classify.hpp"
+#include "vantage/volume/advanced/classify.hpp"
 
 namespace vantage::test {
 namespace {
@@ -48,7 +48,7 @@ PlanInput all_around() {
                     {-0.6, -0.5, 0.4}});
 }
 
-ReplaySettings settings_for(const std::vector<std::string>& methods) {
+ReplayBenchmarkOptions settings_for(const std::vector<std::string>& methods) {
   return {.methods = named_methods(methods), .pairs = 4};
 }
 
@@ -81,7 +81,7 @@ std::size_t newly_known(const StateGrid& before, const StateGrid& after) {
   return known;
 }
 
-void expect_replay_refused(const PlanInput& input, const ReplaySettings& settings,
+void expect_replay_refused(const PlanInput& input, const ReplayBenchmarkOptions& settings,
                            const char* where, const char* part) {
   try {
     evaluate_replay(input, settings);
@@ -123,7 +123,8 @@ TEST_CASE("real gain: the voxels that are known with the frame's depth image, co
 
 TEST_CASE("a method picks what a plan picks that has the frames' poses as its only candidates") {
   const PlanInput input = all_around();
-  const ReplaySettings settings = settings_for({"voxel", "shadowD6", "shadowD0", "mesh", "meshD6"});
+  const ReplayBenchmarkOptions settings =
+      settings_for({"voxel", "shadowD6", "shadowD0", "mesh", "meshD6"});
   for (const ReplayPair& pair : evaluate_replay(input, settings).pairs) {
     PlanRequest request = input.request;
     ViewList list;
@@ -150,7 +151,7 @@ TEST_CASE("a method picks what a plan picks that has the frames' poses as its on
 TEST_CASE("a recorded frame was possible, wherever a plan would say that no camera can be") {
   // The last camera stands in the work area, low behind the post, where the first two do not see.
   PlanInput input = recording({{0.9, 0.1, 0.1}, {0.9, -0.1, 0.1}, {-0.15, 0, 0.02}});
-  const ReplaySettings settings = settings_for({"voxel"});
+  const ReplayBenchmarkOptions settings = settings_for({"voxel"});
   const auto pairs = evaluate_replay(input, settings).pairs;
   const auto pair = std::ranges::find(pairs, std::array{0, 10}, &ReplayPair::frames);
   REQUIRE(pair != pairs.end());
@@ -159,7 +160,7 @@ TEST_CASE("a recorded frame was possible, wherever a plan would say that no came
   PlanRequest request = input.request;
   request.candidates = ViewList{{input.world.cameras[2].camera.T_world_cam()}};
   const Plan plan = plan_next_view(world_of(input, {0, 10}), request);
-  CHECK(plan.candidates.at(0).rejected == Rejection::inside_shadow);
+  CHECK(plan.candidates.at(0).rejected == InvalidReason::inside_shadow);
   CHECK(view.frame == 20);
   CHECK(view.predicted_gain_m3 > 0);
 }
@@ -184,11 +185,11 @@ TEST_CASE("what a frame did not measure, it does not reveal") {
 TEST_CASE("frames need not be of one camera") {
   const PlanInput wide = all_around();
   PlanInput input = wide;
-  Observer& narrow = input.world.cameras[3];
+  DepthCamera& narrow = input.world.cameras[3];
   const PinholeCamera tele({40, 30, 400, 400, 19.5, 14.5}, narrow.camera.T_world_cam(), {0.02, 3});
   narrow.camera = tele;
   narrow.depth = std::make_shared<const DepthImage>(post_and_block()->render_depth(tele));
-  ReplaySettings settings = settings_for({"voxel"});
+  ReplayBenchmarkOptions settings = settings_for({"voxel"});
   settings.pairs = 100;
   double wide_m3 = 0, tele_m3 = 0;
   const auto pairs = evaluate_replay(input, settings).pairs;
@@ -207,7 +208,7 @@ TEST_CASE("frames need not be of one camera") {
 
 TEST_CASE("a replay is the same at any number of threads") {
   const PlanInput input = all_around();
-  const ReplaySettings settings = settings_for({"voxel", "shadow"});
+  const ReplayBenchmarkOptions settings = settings_for({"voxel", "shadow"});
   const auto run = [&](int threads) {
     return tbb::task_arena(threads).execute([&] { return evaluate_replay(input, settings); });
   };
@@ -224,7 +225,7 @@ TEST_CASE("a replay is the same at any number of threads") {
 }
 
 TEST_CASE("recordings that cannot be replayed are refused") {
-  const ReplaySettings settings = settings_for({"voxel"});
+  const ReplayBenchmarkOptions settings = settings_for({"voxel"});
   PlanInput input = all_around();
   input.world.cameras[4].depth = nullptr;
   expect_replay_refused(input, settings, "image 40", "it has no depth image");
@@ -238,8 +239,8 @@ TEST_CASE("recordings that cannot be replayed are refused") {
   expect_replay_refused(input, settings, "work area", "of 6 frames, 0 show at least 10 % of it");
 
   input = all_around();
-  ReplaySettings strict = settings;
-  strict.least_seen = 1;
+  ReplayBenchmarkOptions strict = settings;
+  strict.min_seen = 1;
   expect_replay_refused(input, strict, "work area", "lower --least-seen");
 }
 

@@ -9,9 +9,9 @@
 #include "reference/random_workcell.hpp"
 #include "support/expect_error.hpp"
 #include "support/scene_count.hpp"
-#include "vantage/planner/mesh_scorer.hpp"
-#include "vantage/raycore/unobserved_space.hpp"
-#include "vantage/volume/classify.hpp"
+#include "vantage/planner/advanced/mesh_scorer.hpp"
+#include "vantage/raycore/advanced/unobserved_space.hpp"
+#include "vantage/volume/advanced/classify.hpp"
 
 namespace vantage {
 namespace {
@@ -43,7 +43,7 @@ struct PlainSight {
 PlainSight plain_sight(const SeenWorld& world, const PinholeCamera& view, double power) {
   const auto seen = test::scored_space(world);
   const auto known = known_scene(world.known);
-  PlainSight sight;
+  PlainSight observation;
   for (int v = 0; v < view.intrinsics().height; ++v) {
     for (int u = 0; u < view.intrinsics().width; ++u) {
       const std::array tile{PixelTile{std::uint16_t(u / 4), std::uint16_t(v / 4)}};
@@ -55,14 +55,16 @@ PlainSight plain_sight(const SeenWorld& world, const PinholeCamera& view, double
       const double depth_m = double(unseen[0].t[lane]), facing = double(unseen[0].facing[lane]);
       if (depth_m < view.range().near_m || depth_m > view.range().far_m) continue;
       if (double(object[0].t[lane]) <= depth_m) continue;
-      sight.score += (1 - facing) * std::pow(depth_m / view.range().far_m, power);
-      ++sight.pixels;
+      observation.score += (1 - facing) * std::pow(depth_m / view.range().far_m, power);
+      ++observation.pixels;
       if (facing > 0.5) continue;
-      sight.left = std::min(sight.left, u), sight.right = std::max(sight.right, u);
-      sight.top = std::min(sight.top, v), sight.bottom = std::max(sight.bottom, v);
+      observation.left = std::min(observation.left, u),
+      observation.right = std::max(observation.right, u);
+      observation.top = std::min(observation.top, v),
+      observation.bottom = std::max(observation.bottom, v);
     }
   }
-  return sight;
+  return observation;
 }
 
 PinholeCamera view_at(const Eigen::Vector3d& eye, const Eigen::Vector3d& target,
@@ -141,11 +143,12 @@ TEST_CASE("on random workcells a score is the sum over pixels, and a look tells 
       CHECK(std::abs(double(score) * 0x1p-35 - plain.score) < 1e-6 * plain.score + 1e-6);
       CHECK(scorer.terms(view)[0].value == plain.pixels);
       CHECK(scorer.upper_bound(view) >= score);
-      const ShadowSight sight = scorer.look(view, std::nullopt);
-      CHECK(sight.score == score);
-      CHECK(sight.bounds.has_value() == (plain.right >= 0));
-      if (sight.bounds) {
-        CHECK(*sight.bounds == ShadowBounds{plain.left, plain.right, plain.top, plain.bottom});
+      const ShadowObservation observation = scorer.observe(view, std::nullopt);
+      CHECK(observation.score == score);
+      CHECK(observation.bounds.has_value() == (plain.right >= 0));
+      if (observation.bounds) {
+        CHECK(*observation.bounds ==
+              ShadowBounds{plain.left, plain.right, plain.top, plain.bottom});
         ++with_shadow;
       }
       // Below what is needed it may be left at a bound, and is never taken for more.
@@ -165,8 +168,8 @@ TEST_CASE("a view is scored by a small image of its own field of view") {
   const PinholeCamera large = view_at({2.5, 0, 0}, {1, 0, 0}, {640, 480, 600, 600, 319.5, 239.5});
   const PinholeCamera same = view_at({2.5, 0, 0}, {1, 0, 0}, {64, 48, 60, 60, 31.5, 23.5});
   CHECK(exact_score(scorer, large) == exact_score(scorer, same));
-  CHECK(!scorer.look(large, std::nullopt).score);
-  CHECK(scorer.look(same, std::nullopt).score);
+  CHECK(!scorer.observe(large, std::nullopt).score);
+  CHECK(scorer.observe(same, std::nullopt).score);
 }
 
 TEST_CASE(
@@ -258,7 +261,7 @@ TEST_CASE("the mesh method says what it cannot do without") {
   test::expect_bad_input("views", "the scorer was made for 0.05 to 2 m",
                          [&] { (void)scorer.score(far); });
   test::expect_bad_input("views", "the scorer was made for",
-                         [&] { (void)scorer.look(far, std::nullopt); });
+                         [&] { (void)scorer.observe(far, std::nullopt); });
   std::array<ScoreBound, 2> results;
   test::expect_bad_input("views", "1 views, 1 scores needed and 2 results",
                          [&] { scorer.score(std::array{other}, std::array{Score(0)}, results); });

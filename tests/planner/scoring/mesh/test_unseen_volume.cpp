@@ -9,10 +9,10 @@
 #include "reference/random_scene.hpp"
 #include "reference/random_workcell.hpp"
 #include "support/scene_count.hpp"
-#include "vantage/planner/mesh_scorer.hpp"
-#include "vantage/raycore/scene_builder.hpp"
-#include "vantage/raycore/unobserved_space.hpp"
-#include "vantage/volume/classify.hpp"
+#include "vantage/planner/advanced/mesh_scorer.hpp"
+#include "vantage/raycore/advanced/scene_builder.hpp"
+#include "vantage/raycore/advanced/unobserved_space.hpp"
+#include "vantage/volume/advanced/classify.hpp"
 
 namespace vantage {
 namespace {
@@ -40,8 +40,8 @@ double volume_m3(const MeshScorer& scorer, const PinholeCamera& view) {
   return double(result.score) * scorer.unit() / (3 * k.fx * k.fy);
 }
 
-/// Where a ray that is inside the shell at t leaves it. What is thinner than `SeenSpace` looks at,
-/// near a work area of less than a metre, is passed over.
+/// Where a ray that is inside the shell at t leaves it. What is thinner than `UnobservedSpace`
+/// looks at, near a work area of less than a metre, is passed over.
 double shell_end(const Scene* shell, const PixelRay& ray, double t) {
   if (shell == nullptr) return std::numeric_limits<double>::infinity();
   const double step = 1e-5 * std::max(0.2, ray.origin.cwiseAbs().maxCoeff());

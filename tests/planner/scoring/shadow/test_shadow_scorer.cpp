@@ -13,8 +13,8 @@
 #include "reference/plain_shadow.hpp"
 #include "support/expect_error.hpp"
 #include "support/scene_count.hpp"
-#include "vantage/planner/shadow_scorer.hpp"
-#include "vantage/volume/classify.hpp"
+#include "vantage/planner/advanced/shadow_scorer.hpp"
+#include "vantage/volume/advanced/classify.hpp"
 
 namespace vantage {
 namespace {
@@ -112,28 +112,28 @@ TEST_CASE("what a look expects changes nothing, and what it finds lies on the bo
     CAPTURE(seed);
     const PlanningScene scene = test::shadow_scene(seed);
     Random random(seed + 900);
-    std::optional<OutermostShadow> former;
+    std::optional<ExtremePoints> former;
     for (int i = 0; i < 40; ++i) {
       CAPTURE(i);
       const PinholeCamera view = test::shadow_view_anywhere(random, scene, 80, 60);
       const ShadowScorer scorer(scene, view.range(), 0);
-      const ShadowSight sight = scorer.look(view, std::nullopt);
-      CHECK(sight.bounds == scorer.shadow_bounds(view));
-      OutermostShadow nonsense;
+      const ShadowObservation observation = scorer.observe(view, std::nullopt);
+      CHECK(observation.bounds == scorer.shadow_bounds(view));
+      ExtremePoints nonsense;
       for (Eigen::Vector3d& point : nonsense) point = random.in_cube(0.3);
       nonsense[random.below(4)] = {kNan, 1e300, -1e300};
       nonsense[random.below(4)] = view.centre();
-      CHECK(scorer.look(view, nonsense).bounds == sight.bounds);
-      CHECK(scorer.look(view, former).bounds == sight.bounds);
-      CHECK(scorer.look(view, sight.outermost).bounds == sight.bounds);
-      REQUIRE(sight.outermost.has_value() == sight.bounds.has_value());
-      former = sight.outermost;
-      if (!sight.bounds) continue;
+      CHECK(scorer.observe(view, nonsense).bounds == observation.bounds);
+      CHECK(scorer.observe(view, former).bounds == observation.bounds);
+      CHECK(scorer.observe(view, observation.extremes).bounds == observation.bounds);
+      REQUIRE(observation.extremes.has_value() == observation.bounds.has_value());
+      former = observation.extremes;
+      if (!observation.bounds) continue;
       const auto pixel = [&](std::size_t border) { return *view.project((*former)[border]); };
-      CHECK(pixel(0).u == doctest::Approx(sight.bounds->left).scale(1).epsilon(1e-3));
-      CHECK(pixel(1).u == doctest::Approx(sight.bounds->right).scale(1).epsilon(1e-3));
-      CHECK(pixel(2).v == doctest::Approx(sight.bounds->top).scale(1).epsilon(1e-3));
-      CHECK(pixel(3).v == doctest::Approx(sight.bounds->bottom).scale(1).epsilon(1e-3));
+      CHECK(pixel(0).u == doctest::Approx(observation.bounds->left).scale(1).epsilon(1e-3));
+      CHECK(pixel(1).u == doctest::Approx(observation.bounds->right).scale(1).epsilon(1e-3));
+      CHECK(pixel(2).v == doctest::Approx(observation.bounds->top).scale(1).epsilon(1e-3));
+      CHECK(pixel(3).v == doctest::Approx(observation.bounds->bottom).scale(1).epsilon(1e-3));
       ++looks;
     }
   }

@@ -3,9 +3,9 @@
 #include "planner/shared_views.hpp"
 #include "planner/small_area.hpp"
 #include "support/expect_error.hpp"
-#include "vantage/planner/light_scorer.hpp"
+#include "vantage/planner/advanced/light_scorer.hpp"
 #include "vantage/planner/methods.hpp"
-#include "vantage/volume/classify.hpp"
+#include "vantage/volume/advanced/classify.hpp"
 
 namespace vantage {
 namespace {
@@ -80,7 +80,7 @@ TEST_CASE("the light method's flaw: what nobody knows casts no shade") {
 
 TEST_CASE("every method has a name by which it is made, and others are refused") {
   WorldModel measured = lit_cube();
-  Observer& camera = measured.cameras[0];
+  DepthCamera& camera = measured.cameras[0];
   camera.depth =
       std::make_shared<const DepthImage>(known_scene(measured)->render_depth(camera.camera));
   const Lit lit(measured, test::kSmallArea);

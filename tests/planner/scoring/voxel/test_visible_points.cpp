@@ -11,10 +11,10 @@
 #include "reference/plain_views.hpp"
 #include "support/expect_error.hpp"
 #include "support/scene_count.hpp"
-#include "vantage/planner/visible_points.hpp"
-#include "vantage/planner/voxel_scorer.hpp"
-#include "vantage/raycore/scene_builder.hpp"
-#include "vantage/volume/classify.hpp"
+#include "vantage/planner/advanced/visible_points.hpp"
+#include "vantage/planner/advanced/voxel_scorer.hpp"
+#include "vantage/raycore/advanced/scene_builder.hpp"
+#include "vantage/volume/advanced/classify.hpp"
 
 namespace vantage {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <filesystem>
 
-#include "vantage/raycore/api.hpp"
-#include "vantage/volume/shadow_regions.hpp"
+#include "vantage/raycore/export.hpp"
+#include "vantage/volume/advanced/shadow_regions.hpp"
 #include "vantage/volume/state_grid.hpp"
 
 namespace vantage {

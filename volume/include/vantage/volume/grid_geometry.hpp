@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <optional>
 
-#include "vantage/raycore/api.hpp"
 #include "vantage/raycore/box.hpp"
+#include "vantage/raycore/export.hpp"
 
 namespace vantage {
 
@@ -15,12 +15,12 @@ namespace vantage {
 /// at its centre. World frame, metres. Immutable value type.
 class VANTAGE_API GridGeometry {
  public:
-  static constexpr double kMostVoxels = 1 << 30;
+  static constexpr double kMaxVoxels = 1 << 30;
 
   /// The voxels whose centres lie in `work_area`, the first one in its lower corner; at least one
   /// along each axis.
   /// @throws Error bad_input unless `voxel_size_m` is finite and positive; out_of_resources for
-  /// more than `kMostVoxels`, with the smallest size that fits.
+  /// more than `kMaxVoxels`, with the smallest size that fits.
   static GridGeometry covering(const Box& work_area, double voxel_size_m);
 
   const Eigen::Vector3d& origin() const noexcept { return origin_; }

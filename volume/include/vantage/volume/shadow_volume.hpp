@@ -3,8 +3,8 @@
 #include <cstddef>
 #include <memory>
 
-#include "vantage/raycore/api.hpp"
 #include "vantage/raycore/depth_image.hpp"
+#include "vantage/raycore/export.hpp"
 #include "vantage/raycore/stop_token.hpp"
 #include "vantage/raycore/world_model.hpp"
 #include "vantage/volume/grid_geometry.hpp"

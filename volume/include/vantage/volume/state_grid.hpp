@@ -6,7 +6,7 @@
 #include <memory>
 #include <span>
 
-#include "vantage/raycore/api.hpp"
+#include "vantage/raycore/export.hpp"
 #include "vantage/raycore/points.hpp"
 #include "vantage/volume/grid_geometry.hpp"
 #include "vantage/volume/volume_options.hpp"
@@ -22,7 +22,7 @@ enum class VoxelState : std::int32_t {
   revealed = 3,  ///< shadow that the suggested view would see
 };
 
-namespace detail {
+namespace volume::detail {
 struct StateGridImpl;
 }
 
@@ -31,7 +31,7 @@ struct StateGridImpl;
 /// StateGrid>`; every method is thread-safe.
 class VANTAGE_API StateGrid {
  public:
-  explicit StateGrid(std::unique_ptr<const detail::StateGridImpl> impl);
+  explicit StateGrid(std::unique_ptr<const volume::detail::StateGridImpl> impl);
   ~StateGrid();
   StateGrid(const StateGrid&) = delete;
   StateGrid& operator=(const StateGrid&) = delete;
@@ -72,10 +72,10 @@ class VANTAGE_API StateGrid {
   void write_vdb(const std::filesystem::path& path) const;
 
   /// For this library's own sources.
-  const detail::StateGridImpl& impl() const noexcept { return *impl_; }
+  const volume::detail::StateGridImpl& impl() const noexcept { return *impl_; }
 
  private:
-  std::unique_ptr<const detail::StateGridImpl> impl_;
+  std::unique_ptr<const volume::detail::StateGridImpl> impl_;
 };
 
 }  // namespace vantage

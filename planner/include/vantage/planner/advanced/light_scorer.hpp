@@ -3,15 +3,15 @@
 #include <memory>
 #include <vector>
 
-#include "vantage/planner/planning_scene.hpp"
+#include "vantage/planner/advanced/planning_scene.hpp"
+#include "vantage/planner/advanced/visible_points.hpp"
 #include "vantage/planner/view_scorer.hpp"
-#include "vantage/planner/visible_points.hpp"
-#include "vantage/raycore/api.hpp"
+#include "vantage/raycore/export.hpp"
 #include "vantage/raycore/world_model.hpp"
 
 namespace vantage {
 
-namespace detail {
+namespace planner::detail {
 struct SurfaceSamples;
 }
 
@@ -35,7 +35,7 @@ class VANTAGE_API LightScorer final : public ViewScorer {
   bool shares_rays() const noexcept override { return true; }
 
  private:
-  LightScorer(const detail::SurfaceSamples& samples, const WorldModel& world);
+  LightScorer(const planner::detail::SurfaceSamples& samples, const WorldModel& world);
 
   double area_per_point_m2_;
   VisiblePoints dark_;

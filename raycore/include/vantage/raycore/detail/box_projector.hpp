@@ -2,8 +2,8 @@
 
 #include <Eigen/Core>
 
-#include "vantage/raycore/api.hpp"
 #include "vantage/raycore/camera.hpp"
+#include "vantage/raycore/export.hpp"
 
 namespace vantage {
 

@@ -2,10 +2,10 @@
 
 #include <memory>
 
-#include "vantage/raycore/api.hpp"
+#include "vantage/raycore/advanced/scene.hpp"
 #include "vantage/raycore/box.hpp"
+#include "vantage/raycore/export.hpp"
 #include "vantage/raycore/pose.hpp"
-#include "vantage/raycore/scene.hpp"
 #include "vantage/raycore/triangle_mesh.hpp"
 
 namespace vantage {

@@ -2,7 +2,7 @@
 
 #include <memory>
 
-#include "vantage/raycore/api.hpp"
+#include "vantage/raycore/export.hpp"
 #include "vantage/raycore/triangle_mesh.hpp"
 #include "vantage/volume/state_grid.hpp"
 
@@ -19,20 +19,21 @@ namespace vantage {
 /// of shadow alone fits around goes. Around the grid there is no shadow, so that a layer on the
 /// floor is as thin as it looks.
 /// @throws Error bad_input unless 0 <= radius_voxels <= 64.
-VANTAGE_API std::shared_ptr<const StateGrid> opened_shadow(const StateGrid& grid,
-                                                           int radius_voxels);
+VANTAGE_API std::shared_ptr<const StateGrid> morphological_open(const StateGrid& grid,
+                                                                int radius_voxels);
 
 /// The radius that opens by cubes of an edge, as nearly as voxels allow: not larger than it.
 /// @throws Error bad_input unless `edge_m` is finite and not negative.
 VANTAGE_API int opening_radius(const StateGrid& grid, double edge_m);
 
 /// A closed mesh that looks outwards, world frame, around the shadow and the voxels next to it,
-/// also those beyond the grid's box: with it as its shell, a `SeenSpace` has what a filter left of
-/// the unseen, up to the very surfaces that were measured.
+/// also those beyond the grid's box: with it as its shell, a `UnobservedSpace` has what a filter
+/// left of the unseen, up to the very surfaces that were measured.
 VANTAGE_API TriangleMesh shell_around_shadow(const StateGrid& grid);
 
-/// Removes the regions of shadow (`ShadowRegions`) that are smaller than `least_m3`.
-/// @throws Error bad_input unless `least_m3` is finite and not negative.
-VANTAGE_API std::shared_ptr<const StateGrid> large_shadow(const StateGrid& grid, double least_m3);
+/// Removes the regions of shadow (`ShadowRegions`) that are smaller than `min_m3`.
+/// @throws Error bad_input unless `min_m3` is finite and not negative.
+VANTAGE_API std::shared_ptr<const StateGrid> remove_small_components(const StateGrid& grid,
+                                                                     double min_m3);
 
 }  // namespace vantage

@@ -6,12 +6,12 @@
 #include <memory>
 #include <span>
 
-#include "vantage/raycore/api.hpp"
+#include "vantage/raycore/advanced/scene.hpp"
+#include "vantage/raycore/advanced/visibility_mesh.hpp"
 #include "vantage/raycore/box.hpp"
 #include "vantage/raycore/camera.hpp"
-#include "vantage/raycore/scene.hpp"
+#include "vantage/raycore/export.hpp"
 #include "vantage/raycore/triangle_mesh.hpp"
-#include "vantage/raycore/visibility_mesh.hpp"
 
 namespace vantage {
 
@@ -43,18 +43,19 @@ struct UnseenHits {
 /// Embree's grids; the borders of holes are upright walls. In the world, cells at edges in depth
 /// would be slivers in huge boxes, and rays take half as long again. What is thinner along a ray
 /// than 1e-5 of the coordinates on its way may be taken for seen. Immutable; thread-safe.
-class VANTAGE_API SeenSpace {
+class VANTAGE_API UnobservedSpace {
  public:
   /// Builds in the caller's task arena.
   /// @param shell a closed mesh in the world that looks outwards: nothing outside of it counts as
   /// unseen, so that rays begin the unseen where they enter the shell, with facing 0 as on the
   /// box's faces. Null if all of the box counts. It is not referred to later.
-  /// @throws Error bad_input as `DepthLattice::check` does, and for a box or lattice beyond 1e9 m.
-  SeenSpace(std::span<const DepthLattice> lattices, const Box& box,
-            const TriangleMesh* shell = nullptr);
-  ~SeenSpace();
-  SeenSpace(const SeenSpace&) = delete;
-  SeenSpace& operator=(const SeenSpace&) = delete;
+  /// @throws Error bad_input as `VisibilityMesh::check` does, and for a box or lattice beyond 1e9
+  /// m.
+  UnobservedSpace(std::span<const VisibilityMesh> lattices, const Box& box,
+                  const TriangleMesh* shell = nullptr);
+  ~UnobservedSpace();
+  UnobservedSpace(const UnobservedSpace&) = delete;
+  UnobservedSpace& operator=(const UnobservedSpace&) = delete;
 
   const Box& box() const noexcept;
   std::size_t lattice_count() const noexcept;

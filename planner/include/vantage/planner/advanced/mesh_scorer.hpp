@@ -4,14 +4,14 @@
 #include <optional>
 #include <vector>
 
-#include "vantage/planner/shadow_view.hpp"
+#include "vantage/planner/advanced/shadow_view.hpp"
 #include "vantage/planner/view_scorer.hpp"
-#include "vantage/raycore/api.hpp"
+#include "vantage/raycore/advanced/visibility_mesh.hpp"
 #include "vantage/raycore/box.hpp"
-#include "vantage/raycore/visibility_mesh.hpp"
+#include "vantage/raycore/export.hpp"
 #include "vantage/raycore/world_model.hpp"
+#include "vantage/volume/advanced/visibility.hpp"
 #include "vantage/volume/state_grid.hpp"
-#include "vantage/volume/visibility.hpp"
 
 namespace vantage {
 
@@ -50,7 +50,7 @@ struct MeshOptions {
 /// The work area as depth images alone show it (thesis 7.4.2 to 7.4.4).
 struct SeenWorld {
   Box work_area;
-  std::vector<DepthLattice>
+  std::vector<VisibilityMesh>
       lattices;      ///< what the cameras saw through; none of those that saw none
   WorldModel known;  ///< known objects, enlarged, and static structures as they are; no cameras
   /// What is unseen without the false shadow, in voxels; null if it was not filtered.
@@ -96,8 +96,8 @@ class VANTAGE_API MeshScorer final : public ViewScorer, public ShadowView {
   std::optional<ShadowBounds> shadow_bounds(const PinholeCamera& view) const override;
 
   /// With the score, if the view's image is as wide as those that views are scored by.
-  ShadowSight look(const PinholeCamera& view,
-                   const std::optional<OutermostShadow>& expected) const override;
+  ShadowObservation observe(const PinholeCamera& view,
+                            const std::optional<ExtremePoints>& expected) const override;
 
  private:
   struct Impl;

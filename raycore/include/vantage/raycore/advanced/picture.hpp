@@ -5,10 +5,10 @@
 #include <optional>
 #include <span>
 
-#include "vantage/raycore/api.hpp"
+#include "vantage/raycore/advanced/scene.hpp"
 #include "vantage/raycore/camera.hpp"
+#include "vantage/raycore/export.hpp"
 #include "vantage/raycore/image.hpp"
-#include "vantage/raycore/scene.hpp"
 #include "vantage/raycore/stop_token.hpp"
 
 namespace vantage {

@@ -2,9 +2,9 @@
 
 #include <memory>
 
-#include "vantage/raycore/api.hpp"
-#include "vantage/raycore/scene.hpp"
-#include "vantage/raycore/scene_builder.hpp"
+#include "vantage/raycore/advanced/scene.hpp"
+#include "vantage/raycore/advanced/scene_builder.hpp"
+#include "vantage/raycore/export.hpp"
 #include "vantage/raycore/stop_token.hpp"
 #include "vantage/raycore/world_model.hpp"
 #include "vantage/volume/grid_geometry.hpp"

@@ -3,10 +3,10 @@
 #include <cstdint>
 #include <vector>
 
-#include "vantage/planner/planning_scene.hpp"
+#include "vantage/planner/advanced/planning_scene.hpp"
+#include "vantage/planner/advanced/visible_points.hpp"
 #include "vantage/planner/view_scorer.hpp"
-#include "vantage/planner/visible_points.hpp"
-#include "vantage/raycore/api.hpp"
+#include "vantage/raycore/export.hpp"
 
 namespace vantage {
 

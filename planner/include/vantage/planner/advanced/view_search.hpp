@@ -6,14 +6,14 @@
 #include <span>
 #include <vector>
 
-#include "vantage/planner/servo_refiner.hpp"
-#include "vantage/planner/travel_cost.hpp"
+#include "vantage/planner/advanced/servo_refiner.hpp"
+#include "vantage/planner/advanced/travel_cost.hpp"
+#include "vantage/planner/advanced/view_polisher.hpp"
 #include "vantage/planner/view_candidates.hpp"
 #include "vantage/planner/view_constraints.hpp"
-#include "vantage/planner/view_polisher.hpp"
 #include "vantage/planner/view_scorer.hpp"
-#include "vantage/raycore/api.hpp"
 #include "vantage/raycore/camera.hpp"
+#include "vantage/raycore/export.hpp"
 #include "vantage/raycore/stop_token.hpp"
 
 namespace vantage {
@@ -30,7 +30,7 @@ struct SearchOptions {
 /// A candidate and what came of it.
 struct ScoredCandidate {
   ViewCandidate view;
-  Rejection rejected = Rejection::none;
+  InvalidReason rejected = InvalidReason::none;
   ScoreBound score = {};    ///< the best of its servo iterations, before travel; at most that
   int servo_iteration = 0;  ///< of the best one; of use if the score is exact
 };
@@ -65,7 +65,8 @@ struct SearchResult {
 class VANTAGE_API ViewSearch {
  public:
   /// @param servo null: candidates are scored as they are.
-  ViewSearch(std::shared_ptr<const ViewScorer> scorer, std::shared_ptr<const ViewChecker> checker,
+  ViewSearch(std::shared_ptr<const ViewScorer> scorer,
+             std::shared_ptr<const ViewValidityChecker> validity,
              std::shared_ptr<const ServoRefiner> servo, const PinholeCamera& camera,
              const SearchOptions& options);
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "vantage/raycore/instruction_set.hpp"
+#include "vantage/raycore/detail/instruction_set.hpp"
 
 namespace vantage {
 

@@ -7,11 +7,11 @@
 #include <string_view>
 #include <vector>
 
-#include "vantage/planner/travel_cost.hpp"
+#include "vantage/planner/advanced/travel_cost.hpp"
 #include "vantage/planner/view_constraints.hpp"
 #include "vantage/planner/view_scorer.hpp"
-#include "vantage/raycore/api.hpp"
 #include "vantage/raycore/camera.hpp"
+#include "vantage/raycore/export.hpp"
 #include "vantage/raycore/pose.hpp"
 #include "vantage/raycore/stop_token.hpp"
 
@@ -55,9 +55,10 @@ class VANTAGE_API ViewPolisher {
  public:
   /// @param camera of the robot; its pose does not matter.
   /// @throws Error as the options' checks do.
-  ViewPolisher(std::shared_ptr<const ViewScorer> scorer, std::shared_ptr<const ViewChecker> checker,
-               const PinholeCamera& camera, const Eigen::Vector3d& shadow_centre,
-               const PolishOptions& options, const std::optional<TravelCost>& travel = {});
+  ViewPolisher(std::shared_ptr<const ViewScorer> scorer,
+               std::shared_ptr<const ViewValidityChecker> validity, const PinholeCamera& camera,
+               const Eigen::Vector3d& shadow_centre, const PolishOptions& options,
+               const std::optional<TravelCost>& travel = {});
 
   /// Steps to ever better views, all of them feasible: first of 20° around and over and of 6° in
   /// pan and tilt, then of a half and of a quarter of that, each as long as one of them helps. None

@@ -2,10 +2,10 @@
 
 #include <optional>
 
-#include "vantage/raycore/api.hpp"
+#include "vantage/raycore/advanced/visibility_mesh.hpp"
 #include "vantage/raycore/box.hpp"
 #include "vantage/raycore/depth_image.hpp"
-#include "vantage/raycore/visibility_mesh.hpp"
+#include "vantage/raycore/export.hpp"
 #include "vantage/volume/volume_options.hpp"
 
 namespace vantage {
@@ -48,8 +48,8 @@ struct VisibilityOptions {
 /// @returns nothing if the camera does not have the work area in its image, or measured nothing
 /// there.
 /// @throws Error bad_input as `VisibilityOptions::check` does.
-VANTAGE_API std::optional<DepthLattice> visibility_lattice(const PosedDepth& image,
-                                                           const Box& work_area,
-                                                           const VisibilityOptions& options = {});
+VANTAGE_API std::optional<VisibilityMesh> visibility_lattice(const PosedDepth& image,
+                                                             const Box& work_area,
+                                                             const VisibilityOptions& options = {});
 
 }  // namespace vantage

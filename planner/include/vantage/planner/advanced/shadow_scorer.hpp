@@ -4,10 +4,10 @@
 #include <optional>
 #include <vector>
 
-#include "vantage/planner/planning_scene.hpp"
-#include "vantage/planner/shadow_view.hpp"
+#include "vantage/planner/advanced/planning_scene.hpp"
+#include "vantage/planner/advanced/shadow_view.hpp"
 #include "vantage/planner/view_scorer.hpp"
-#include "vantage/raycore/api.hpp"
+#include "vantage/raycore/export.hpp"
 
 namespace vantage {
 
@@ -33,8 +33,8 @@ class VANTAGE_API ShadowScorer final : public ViewScorer, public ShadowView {
   using ViewScorer::score;
   std::vector<ScoreTerm> terms(const PinholeCamera& view) const override;
   std::optional<ShadowBounds> shadow_bounds(const PinholeCamera& view) const override;
-  ShadowSight look(const PinholeCamera& view,
-                   const std::optional<OutermostShadow>& expected) const override;
+  ShadowObservation observe(const PinholeCamera& view,
+                            const std::optional<ExtremePoints>& expected) const override;
 
  private:
   struct Impl;

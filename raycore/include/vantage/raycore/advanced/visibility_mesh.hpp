@@ -4,8 +4,8 @@
 #include <string_view>
 #include <vector>
 
-#include "vantage/raycore/api.hpp"
 #include "vantage/raycore/camera.hpp"
+#include "vantage/raycore/export.hpp"
 
 namespace vantage {
 
@@ -17,7 +17,7 @@ namespace vantage {
 /// between four vertices is there if all four depths are known; it is two triangles, and their
 /// common edge runs from (i + 1, j) to (i, j + 1). In pixels and inverse depth a triangle is a
 /// plane.
-struct DepthLattice {
+struct VisibilityMesh {
   PinholeCamera camera;        ///< its depth range plays no part
   std::vector<float> columns;  ///< pixel coordinates, strictly increasing, 2 to 32,767 of them
   std::vector<float> rows;     ///< the same

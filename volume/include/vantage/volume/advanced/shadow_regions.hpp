@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "vantage/raycore/api.hpp"
+#include "vantage/raycore/export.hpp"
 #include "vantage/volume/state_grid.hpp"
 
 namespace vantage {

@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "vantage/planner/view_scorer.hpp"
-#include "vantage/raycore/api.hpp"
+#include "vantage/raycore/advanced/scene.hpp"
 #include "vantage/raycore/camera.hpp"
+#include "vantage/raycore/export.hpp"
 #include "vantage/raycore/points.hpp"
-#include "vantage/raycore/scene.hpp"
 #include "vantage/raycore/stop_token.hpp"
 
 namespace vantage {

@@ -2,7 +2,7 @@
 
 #include <Eigen/Core>
 
-#include "vantage/raycore/api.hpp"
+#include "vantage/raycore/export.hpp"
 
 namespace vantage {
 

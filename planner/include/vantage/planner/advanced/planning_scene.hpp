@@ -3,9 +3,9 @@
 #include <Eigen/Core>
 #include <memory>
 
-#include "vantage/raycore/api.hpp"
+#include "vantage/raycore/advanced/scene.hpp"
+#include "vantage/raycore/export.hpp"
 #include "vantage/raycore/points.hpp"
-#include "vantage/raycore/scene.hpp"
 #include "vantage/raycore/triangle_mesh.hpp"
 #include "vantage/raycore/world_model.hpp"
 #include "vantage/volume/state_grid.hpp"

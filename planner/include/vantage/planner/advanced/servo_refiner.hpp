@@ -7,11 +7,11 @@
 #include <string_view>
 #include <vector>
 
-#include "vantage/planner/shadow_view.hpp"
+#include "vantage/planner/advanced/shadow_view.hpp"
 #include "vantage/planner/view_constraints.hpp"
 #include "vantage/planner/view_scorer.hpp"
-#include "vantage/raycore/api.hpp"
 #include "vantage/raycore/camera.hpp"
+#include "vantage/raycore/export.hpp"
 #include "vantage/raycore/pose.hpp"
 
 namespace vantage {
@@ -48,9 +48,9 @@ class VANTAGE_API ServoRefiner {
  public:
   /// @param camera of the robot; its pose does not matter.
   /// @throws Error as `ServoOptions::check` does.
-  ServoRefiner(std::shared_ptr<const ShadowView> view, std::shared_ptr<const ViewChecker> checker,
-               const PinholeCamera& camera, const Eigen::Vector3d& shadow_centre,
-               const ServoOptions& options);
+  ServoRefiner(std::shared_ptr<const ShadowView> view,
+               std::shared_ptr<const ViewValidityChecker> validity, const PinholeCamera& camera,
+               const Eigen::Vector3d& shadow_centre, const ServoOptions& options);
 
   /// The candidate itself and the poses after each iteration, all of them feasible. It ends early
   /// where there is no shadow on the image, where the camera stays (to a pixel), and where
@@ -61,13 +61,13 @@ class VANTAGE_API ServoRefiner {
   /// @param outermost where the last look found the shadow's outermost points, if it did; this
   /// path's last look's afterwards. It spares work, and changes no path.
   std::vector<ServoStep> path(const Pose& T_world_cam,
-                              std::optional<OutermostShadow>& outermost) const;
+                              std::optional<ExtremePoints>& extremes) const;
 
  private:
   std::optional<ServoStep> step(const PinholeCamera& camera, const ShadowBounds& bounds) const;
 
   std::shared_ptr<const ShadowView> view_;
-  std::shared_ptr<const ViewChecker> checker_;
+  std::shared_ptr<const ViewValidityChecker> validity_;
   PinholeCamera camera_;
   Eigen::Vector3d shadow_centre_;
   ServoOptions options_;

@@ -5,8 +5,8 @@
 #include <optional>
 
 #include "vantage/planner/view_scorer.hpp"
-#include "vantage/raycore/api.hpp"
 #include "vantage/raycore/camera.hpp"
+#include "vantage/raycore/export.hpp"
 
 namespace vantage {
 
@@ -17,13 +17,13 @@ struct ShadowBounds {
 };
 
 /// Points of the shadow, world frame, that the four bounds are from.
-using OutermostShadow = std::array<Eigen::Vector3d, 4>;
+using ExtremePoints = std::array<Eigen::Vector3d, 4>;
 
 /// What a look at an image tells.
-struct ShadowSight {
+struct ShadowObservation {
   std::optional<ShadowBounds> bounds = {};  ///< nothing if no pixel shows shadow
   std::optional<Score> score = {};  ///< the view's exact score, where the look tells it, too
-  std::optional<OutermostShadow> outermost = {};  ///< where the look knows them
+  std::optional<ExtremePoints> extremes = {};  ///< where the look knows them
 };
 
 /// What a servo sees: an image on which pixels are shadow or not. Immutable and thread-safe.
@@ -39,8 +39,8 @@ class VANTAGE_API ShadowView {
   /// very image that the servo looks at.
   /// @param expected where a look from close by, if there was one, found the shadow's outermost
   /// points. It may spare work, and changes no bounds.
-  virtual ShadowSight look(const PinholeCamera& view,
-                           const std::optional<OutermostShadow>& /*expected*/) const {
+  virtual ShadowObservation observe(const PinholeCamera& view,
+                                    const std::optional<ExtremePoints>& /*expected*/) const {
     return {.bounds = shadow_bounds(view)};
   }
 };

@@ -2,7 +2,7 @@
 
 #include <string_view>
 
-#include "vantage/raycore/api.hpp"
+#include "vantage/raycore/export.hpp"
 
 namespace vantage {
 

@@ -10,9 +10,9 @@
 #include <span>
 #include <vector>
 
-#include "vantage/raycore/api.hpp"
 #include "vantage/raycore/box.hpp"
 #include "vantage/raycore/depth_image.hpp"
+#include "vantage/raycore/export.hpp"
 #include "vantage/raycore/points.hpp"
 
 namespace vantage {
@@ -72,7 +72,7 @@ struct TileHits {
   alignas(64) ObjectId object[PixelTile::kPixels];
 };
 
-namespace detail {
+namespace raycore::detail {
 struct SceneImpl;
 }
 
@@ -163,8 +163,8 @@ class VANTAGE_API Scene {
 
  private:
   friend class SceneBuilder;
-  explicit Scene(std::unique_ptr<detail::SceneImpl> impl);
-  std::unique_ptr<detail::SceneImpl> impl_;
+  explicit Scene(std::unique_ptr<raycore::detail::SceneImpl> impl);
+  std::unique_ptr<raycore::detail::SceneImpl> impl_;
 };
 
 }  // namespace vantage

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "vantage/raycore/api.hpp"
+#include "vantage/raycore/export.hpp"
 #include "vantage/raycore/triangle_mesh.hpp"
 #include "vantage/volume/state_grid.hpp"
 
