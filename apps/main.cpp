@@ -7,6 +7,7 @@
 #include <new>
 
 #include "cli/command.hpp"
+#include "cli/help_formatter.hpp"
 #include "vantage/raycore/detail/instruction_set.hpp"
 #include "version.hpp"
 
@@ -47,6 +48,7 @@ int main(int argc, char** argv) {
   CLI::App app("vantage: where should the robot's camera look next?", "vantage");
   app.set_version_flag("--version", vantage::kVersion);
   app.require_subcommand(1);
+  set_up_help(app);
   Action action;
   add_plan_command(app, action);
   add_demo_command(app, action);

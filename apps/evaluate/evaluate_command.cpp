@@ -8,6 +8,7 @@
 
 #include "cli/command.hpp"
 #include "cli/number_checks.hpp"
+#include "cli/shared_options.hpp"
 #include "documents/document_value.hpp"
 #include "documents/schema_check.hpp"
 #include "documents/schemas.hpp"
@@ -96,7 +97,7 @@ void add_gain(CLI::App& evaluate, Action& action) {
   verb->add_option("--voxel-size", options->voxel_size_m,
                    "Edge of a voxel of the truth, metres; the plan's without it")
       ->check(positive_number());
-  verb->add_flag("--json", options->json, "Print JSON instead of a summary");
+  add_json_flag(*verb, options->json, "JSON");
   verb->parse_complete_callback(
       [&action, options] { action = [=] { return evaluate_gain(*options); }; });
 }

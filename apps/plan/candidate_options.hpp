@@ -1,24 +1,20 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
-#include <optional>
+#include <nlohmann/json.hpp>
 #include <string>
-#include <vector>
 
 #include "workcell/workcell.hpp"
 
 namespace vantage {
 
-/// What the command line says of the views to choose from, and of where the camera may be. It wins
-/// over the workcell.
+/// What the command line says of the views to choose from, and of where the camera may be. It
+/// overrides the workcell.
 struct CandidateOptions {
-  std::string set;              ///< production, full, or a file of views; empty: the workcell's
-  std::vector<double> radii_m;  ///< empty: the workcell's
-  std::vector<int> counts;      ///< empty: the workcell's, or the set's
-  std::optional<int> rings;
-  std::optional<double> ring_step_rad;
-  std::optional<double> clearance_m;
+  std::string set;  ///< production, full, or a file of views; empty: the workcell's
+  nlohmann::json given = nlohmann::json::object();  ///< fields of the candidates and constraints
 
+  /// This object has to outlive the parsing.
   void add_to(CLI::App& verb);
 
   /// Puts them into a workcell. A named set keeps the radii of the workcell's half-spheres.
@@ -26,7 +22,7 @@ struct CandidateOptions {
   /// for a file as `read_view_file` does.
   void apply(Workcell& workcell) const;
 
-  /// The candidates alone.
+ private:
   CandidateSet resolve(const Workcell& workcell) const;
 };
 

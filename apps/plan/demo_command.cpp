@@ -4,6 +4,9 @@
 
 #include "cli/command.hpp"
 #include "cli/signal_handler.hpp"
+#include "options/command_line.hpp"
+#include "options/field_json.hpp"
+#include "options/volume_fields.hpp"
 #include "plan/report/plan_json.hpp"
 #include "plan/run_options.hpp"
 
@@ -51,6 +54,7 @@ namespace {
 struct DemoOptions {
   CommonOptions common;
   double voxel_size_m = demo_request().voxel_size_m;
+  nlohmann::json given = nlohmann::json::object();
 };
 
 ExitCode demo(const DemoOptions& options) {
@@ -58,7 +62,7 @@ ExitCode demo(const DemoOptions& options) {
   const RunOptions run = options.common.run(start);
   const SignalHandler interrupt({run.stop, run.drawing});
   PlanRequest request = demo_request();
-  request.voxel_size_m = options.voxel_size_m;
+  read_given(options.given, {"", "", {voxel_size_field(request.voxel_size_m)}});
   PlanRecord record;
   record.config = {{"scene", "demo: a wall of cubes"}};
   OutputOptions output = options.common.output;
@@ -75,8 +79,7 @@ void add_demo_command(CLI::App& app, Action& action) {
   options->common.output.folder = "out/demo";
   options->common.add_to(*verb);
   verb->get_option("--output")->capture_default_str();
-  verb->add_option("--voxel-size", options->voxel_size_m, "Edge of a voxel, metres")
-      ->capture_default_str();
+  add_fields(*verb, {"", "Work area", {voxel_size_field(options->voxel_size_m)}}, options->given);
   verb->parse_complete_callback([&action, options] { action = [=] { return demo(*options); }; });
 }
 

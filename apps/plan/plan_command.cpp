@@ -5,7 +5,8 @@
 #include "cli/command.hpp"
 #include "cli/signal_handler.hpp"
 #include "cli/workers.hpp"
-#include "plan/method_options.hpp"
+#include "options/command_line.hpp"
+#include "options/view_options.hpp"
 #include "plan/plan_input.hpp"
 #include "plan/plan_options.hpp"
 #include "plan/run_options.hpp"
@@ -14,22 +15,35 @@
 namespace vantage {
 namespace {
 
+constexpr const char* kExamples =
+    "Examples:\n"
+    "  vantage plan my_cell --work-area -0.4 -0.3 0.01 0.4 0.3 0.3 -o out --pictures\n"
+    "  vantage plan my_cell --workcell cell.yaml --objects pnp --voxel-size 0.005 -o out\n"
+    "  vantage plan my_cell --workcell cell.yaml --method mesh --views 3 --deadline-ms 500 --json";
+
 struct PlanCommandOptions {
   PlanOptions plan;
   CommonOptions common;
-  ViewOptions method;
 };
 
 void add_planning_options(CLI::App& verb, PlanCommandOptions& options) {
   options.plan.candidates.add_to(verb);
-  options.method.add_to(verb);
+  ViewOptions views;
+  add_fields(verb, fields_of(views), options.plan.given);
+}
+
+void add_output_options(CLI::App& verb, PlanCommandOptions& options) {
+  options.common.add_to(verb);
   OutputOptions& output = options.common.output;
-  verb.add_option("--explain", output.explain,
-                  "Explain these candidates, e.g. 17,3: what makes their scores, which shadow they "
-                  "reveal, and why they lost")
-      ->delimiter(',');
+  verb.add_option(
+          "--explain", output.explain,
+          "Explain these candidates, e.g. 17,3: their scores, the shadow that they reveal, and "
+          "why they lost")
+      ->delimiter(',')
+      ->group("Output");
   verb.add_flag("--pictures", output.pictures, "Write overview.png and view.png")
-      ->needs(verb.get_option("--output"));
+      ->needs(verb.get_option("--output"))
+      ->group("Output");
 }
 
 ExitCode plan(const PlanCommandOptions& options) {
@@ -39,7 +53,6 @@ ExitCode plan(const PlanCommandOptions& options) {
   PlanInput input = Workers(options.common.threads).execute([&] {
     return load_plan_input(options.plan, run.stop);
   });
-  options.method.apply(input.request);
   for (const std::string& warning : input.warnings) spdlog::warn("{}", warning);
   input.record.config["deadline_ms"] = options.common.deadline_ms
                                            ? nlohmann::ordered_json(*options.common.deadline_ms)
@@ -52,11 +65,12 @@ ExitCode plan(const PlanCommandOptions& options) {
 void add_plan_command(CLI::App& app, Action& action) {
   CLI::App* verb = app.add_subcommand("plan", "Find the next view for a recording");
   const auto options = std::make_shared<PlanCommandOptions>();
-  options->common.add_to(*verb);
   add_input_options(*verb, options->plan);
+  add_volume_options(*verb, options->plan);
   add_object_options(*verb, options->plan.objects);
   add_planning_options(*verb, *options);
-  add_volume_options(*verb, options->plan);
+  add_output_options(*verb, *options);
+  verb->footer(kExamples);
   verb->parse_complete_callback([&action, options] { action = [=] { return plan(*options); }; });
 }
 

@@ -2,8 +2,9 @@
 
 #include <chrono>
 
+#include "options/field_json.hpp"
+#include "options/volume_fields.hpp"
 #include "vantage/raycore/error.hpp"
-#include "workcell/volume_settings.hpp"
 #include "workcell/workcell.hpp"
 
 namespace vantage {
@@ -15,13 +16,14 @@ PlanRequest plan_request(const Workcell& workcell, const Intrinsics& usual) {
   request.candidates = workcell.candidates;
   request.constraints = workcell.constraints;
   request.volume = workcell.volume;
-  if (workcell.voxel_size_m) request.voxel_size_m = *workcell.voxel_size_m;
+  request.voxel_size_m = workcell.voxel_size_m;
+  workcell.plan.apply(request);
   return request;
 }
 
 namespace {
 
-/// The workcell file with the command line's settings on top.
+/// The workcell file with the command line's options over it.
 Workcell workcell_of(const PlanOptions& options) {
   std::optional<Box> area;
   if (!options.work_area.empty()) {
@@ -29,44 +31,31 @@ Workcell workcell_of(const PlanOptions& options) {
     area.emplace(Eigen::Vector3d(c[0], c[1], c[2]), Eigen::Vector3d(c[3], c[4], c[5]),
                  "--work-area");
   }
-  if (options.workcell.empty()) return {.work_area = area.value()};
-  Workcell workcell = load_workcell(options.workcell);
+  Workcell workcell = options.workcell.empty() ? Workcell{.work_area = area.value()}
+                                               : load_workcell(options.workcell);
   if (area) workcell.work_area = *area;
-  return workcell;
-}
-
-VolumeOptions volume_of(const Workcell& workcell, const PlanOptions& options) {
-  VolumeOptions volume = workcell.volume;
-  if (!options.occluders.empty()) volume.occluders = occluder_mode_of(options.occluders);
-  if (!options.anti_alias.empty()) volume.anti_alias = options.anti_alias == "on";
-  if (options.band_sigmas) volume.band_sigmas = *options.band_sigmas;
-  if (options.depth_noise_px) volume.noise.subpixel_px = *options.depth_noise_px;
-  return volume;
-}
-
-PlanRequest request_of(const Workcell& workcell, const PlanOptions& options,
-                       const Intrinsics& first_camera) {
-  PlanRequest request = plan_request(workcell, first_camera);
-  request.volume = volume_of(workcell, options);
-  if (options.voxel_size_m) request.voxel_size_m = *options.voxel_size_m;
-  return request;
-}
-
-}  // namespace
-
-PlanInput load_plan_input(const PlanOptions& options, const StopToken& stop) {
-  const auto start = std::chrono::steady_clock::now();
-  Workcell workcell = workcell_of(options);
+  read_given(options.given, {"",
+                             "",
+                             {voxel_size_field(workcell.voxel_size_m)},
+                             {fields_of(workcell.volume), fields_of(workcell.plan)}});
   options.candidates.apply(workcell);
   if (!options.depth_range.empty()) {
     const DepthRange range{options.depth_range[0], options.depth_range[1]};
     range.check("--depth-range");
     workcell.sensor_range = workcell.movable_range = range;
   }
+  return workcell;
+}
+
+}  // namespace
+
+PlanInput load_plan_input(const PlanOptions& options, const StopToken& stop) {
+  const auto start = std::chrono::steady_clock::now();
+  const Workcell workcell = workcell_of(options);
   PlanWorld plan =
       load_plan_world(options.dataset, options.images, workcell, options.objects, stop);
   PlanInput input{
-      std::move(plan.world), request_of(workcell, options, plan.first_camera), {}, plan.warnings};
+      std::move(plan.world), plan_request(workcell, plan.first_camera), {}, plan.warnings};
   input.record.inputs = workcell.files;
   input.record.inputs.insert(input.record.inputs.end(), plan.files.begin(), plan.files.end());
   input.record.config = {

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <filesystem>
-#include <optional>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -18,7 +18,7 @@ namespace vantage {
 /// @param usual the movable camera's intrinsics, where the workcell does not say.
 PlanRequest plan_request(const Workcell& workcell, const Intrinsics& usual);
 
-/// What `vantage plan` was asked for. What is set here wins over the workcell file.
+/// What `vantage plan` was asked for. What is set here overrides the workcell file.
 struct PlanOptions {
   std::filesystem::path dataset;
   std::filesystem::path workcell;  ///< empty: none
@@ -27,11 +27,8 @@ struct PlanOptions {
   ObjectSource objects = {};
   std::vector<double> depth_range;  ///< near, far of all cameras; empty: from the workcell
   CandidateOptions candidates = {};
-  std::optional<double> voxel_size_m;
-  std::string occluders;                 ///< mesh or voxels; empty: from the workcell
-  std::string anti_alias;                ///< on or off; empty: from the workcell
-  std::optional<double> band_sigmas;     ///< none: from the workcell
-  std::optional<double> depth_noise_px;  ///< of the stereo matching; none: from the workcell
+  /// Of the voxel size, the volume and the views, by the keys of their fields (options/).
+  nlohmann::json given = nlohmann::json::object();
 };
 
 /// All that planning needs.

@@ -1,23 +1,31 @@
 #include "plan/plan_options.hpp"
 
-#include "cli/number_checks.hpp"
+#include "cli/shared_options.hpp"
+#include "options/command_line.hpp"
+#include "options/volume_fields.hpp"
 
 namespace vantage {
 
 void add_input_options(CLI::App& verb, PlanOptions& plan) {
   verb.add_option("dataset", plan.dataset, "BOP scene folder: scene_camera.json, depth/, rgb/")
       ->required();
-  CLI::Option* workcell = verb.add_option("--workcell", plan.workcell,
-                                          "Workcell file (YAML); options given here win over it");
+  CLI::Option* workcell =
+      verb.add_option("--workcell", plan.workcell,
+                      "Workcell file (YAML); options on the command line override it")
+          ->option_text("FILE")
+          ->group("Input");
+  add_images_option(verb, plan.images);
+  verb.add_option("--depth-range", plan.depth_range,
+                  "The depths that the cameras can measure, metres")
+      ->option_text("NEAR FAR")
+      ->expected(2)
+      ->group("Input");
   CLI::Option* area =
       verb.add_option("--work-area", plan.work_area,
-                      "The box to look into: X0 Y0 Z0 X1 Y1 Z1, metres, world frame")
-          ->expected(6);
-  verb.add_option("--images", plan.images, "Use these images of the dataset only, e.g. 0,20,40")
-      ->delimiter(',');
-  verb.add_option("--depth-range", plan.depth_range,
-                  "NEAR FAR: depths that the cameras measure, metres")
-      ->expected(2);
+                      "The box to look into: its lower and upper corner, metres, world frame")
+          ->option_text("X0 Y0 Z0 X1 Y1 Z1")
+          ->expected(6)
+          ->group("Work area");
   verb.callback([=, &verb] {
     if (workcell->count() + area->count() == 0) {
       throw CLI::ValidationError(verb.get_name(),
@@ -28,30 +36,20 @@ void add_input_options(CLI::App& verb, PlanOptions& plan) {
 }
 
 void add_object_options(CLI::App& verb, ObjectSource& source) {
-  verb.add_option(
-      "--objects", source.objects,
-      "given: the workcell's known_objects; pnp, voting, svd: found by that method; or "
-      "a world.json of `vantage reconstruct` (default: given if there are any, else pnp)");
+  verb.add_option("--objects", source.objects,
+                  "given: the workcell's known_objects; pnp, voting, svd: found by that method; or "
+                  "a world.json of `vantage reconstruct` (default: given if there are any, else "
+                  "pnp)")
+      ->option_text("given|pnp|voting|svd|FILE")
+      ->group("Known objects");
   source.how.add_to(verb);
 }
 
 void add_volume_options(CLI::App& verb, PlanOptions& plan) {
-  verb.add_option("--voxel-size", plan.voxel_size_m, "Edge of a voxel, metres (default: 0.009375)");
-  verb.add_option("--occluders", plan.occluders,
-                  "What hides from a camera: the known objects' exact meshes, or their voxels "
-                  "(default: mesh)")
-      ->check(CLI::IsMember({"mesh", "voxels"}));
-  verb.add_option("--anti-alias", plan.anti_alias,
-                  "Free shadow voxels with fewer than 5 of 6 neighbours in shadow "
-                  "(default: on with --occluders voxels)")
-      ->check(CLI::IsMember({"on", "off"}));
-  verb.add_option("--band-sigmas", plan.band_sigmas,
-                  "Thickness of a measured surface in standard deviations of the depth, at least a "
-                  "voxel (default: 4)")
-      ->check(number_from_zero());
-  verb.add_option("--depth-noise-px", plan.depth_noise_px,
-                  "Noise of the depth cameras' stereo matching, pixels (default: 0.08)")
-      ->check(number_from_zero());
+  Workcell defaults{.work_area = Box({0, 0, 0}, {1, 1, 1})};
+  const FieldGroup all{
+      "", "Work area", {voxel_size_field(defaults.voxel_size_m)}, {fields_of(defaults.volume)}};
+  add_fields(verb, all, plan.given);
 }
 
 }  // namespace vantage

@@ -51,7 +51,7 @@ void use_reconstruction(const BopScene& scene, const Workcell& workcell,
     if (pose) {
       plan.world.cameras.push_back(observer(scene.images[i], *pose));
     } else {
-      plan.warnings.push_back(fmt::format("image {} is of no use: {}", scene.images[i].id,
+      plan.warnings.push_back(fmt::format("skipping image {}: {}", scene.images[i].id,
                                           found.observed.locations[i].reason));
     }
   }
@@ -77,8 +77,8 @@ void use_file(const BopScene& scene, const Workcell& workcell, const fs::path& f
     if (found->second) {
       plan.world.cameras.push_back(observer(image, *found->second));
     } else {
-      plan.warnings.push_back(fmt::format("image {} is of no use: {} has no pose of its camera",
-                                          image.id, file.string()));
+      plan.warnings.push_back(
+          fmt::format("skipping image {}: {} has no pose of its camera", image.id, file.string()));
     }
   }
   plan.files.push_back(file);

@@ -8,6 +8,7 @@
 #include "cli/command.hpp"
 #include "cli/progress_line.hpp"
 #include "cli/run_time.hpp"
+#include "cli/shared_options.hpp"
 #include "cli/signal_handler.hpp"
 #include "cli/workers.hpp"
 #include "reconstruct/overlay_picture.hpp"
@@ -45,7 +46,7 @@ void warn_of(const BopScene& scene, const SceneReconstruction& reconstruction) {
   for (std::size_t i = 0; i < scene.images.size(); ++i) {
     const CameraLocation& location = reconstruction.observed.locations[i];
     if (!location.reason.empty()) {
-      spdlog::warn("image {} is of no use: {}", scene.images[i].id, location.reason);
+      spdlog::warn("skipping image {}: {}", scene.images[i].id, location.reason);
     }
   }
 }
@@ -107,20 +108,22 @@ void add_reconstruct_command(CLI::App& app, Action& action) {
       ->required();
   verb->add_option("--workcell", command->workcell,
                    "Workcell file (YAML) with knowledge_base, and board if cameras have no poses")
-      ->required();
-  verb->add_option("-o,--output", command->folder, "Folder for world.json and pictures");
-  verb->add_option("--images", command->images, "Use these images of the dataset only, e.g. 0,2")
-      ->delimiter(',');
+      ->option_text("FILE")
+      ->required()
+      ->group("Input");
+  add_output_option(*verb, command->folder, "world.json and pictures");
+  add_images_option(*verb, command->images);
   verb->add_option("--method", command->how.method,
-                   "pnp: all cameras' pixels at once; voting: mixes kinds of features; svd: the "
-                   "baseline")
+                   "pnp: one pose from the pixels of all cameras; voting: mixes kinds of features; "
+                   "svd: the baseline, single cameras' poses averaged")
       ->check(CLI::IsMember(kReconstructionMethods))
-      ->capture_default_str();
+      ->capture_default_str()
+      ->group("Known objects");
   command->how.add_to(*verb);
-  verb->add_flag("--no-pictures", command->no_pictures, "No overlay_*.png");
-  verb->add_flag("--json", command->json, "Print world.json on stdout instead of a summary");
-  verb->add_option("--threads", command->threads, "Threads to use (0: all)")
-      ->check(CLI::Range(0, 1024));
+  verb->add_flag("--no-pictures", command->no_pictures, "Do not write overlay_*.png")
+      ->group("Output");
+  add_json_flag(*verb, command->json, "world.json");
+  add_threads_option(*verb, command->threads);
   verb->parse_complete_callback(
       [&action, command] { action = [=] { return reconstruct_command(*command); }; });
 }

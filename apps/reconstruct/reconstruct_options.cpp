@@ -1,30 +1,41 @@
 #include "reconstruct/reconstruct_options.hpp"
 
+#include "cli/help_formatter.hpp"
 #include "cli/number_checks.hpp"
 
 namespace vantage {
 
 void ReconstructCommandOptions::add_to(CLI::App& verb) {
+  const char* heading = "Known objects";
   verb.add_option("--cameras", cameras,
-                  "Where cameras are: by the dataset's poses, by the board's markers, or auto: by "
+                  "Where the camera poses come from; dataset; board: the workcell's markers; auto: "
                   "the board where the dataset has no pose")
       ->check(CLI::IsMember({"auto", "board", "dataset"}))
-      ->capture_default_str();
+      ->capture_default_str()
+      ->group(heading);
   verb.add_option("--calibration", calibrations,
-                  "OpenCV calibration: one file for all cameras, or one for each image; wins over "
+                  "OpenCV calibration: one file for all cameras, or one for each image; overrides "
                   "the workcell's")
-      ->delimiter(',');
+      ->delimiter(',')
+      ->option_text("FILE,…")
+      ->group(heading);
   verb.add_option("--features", features,
-                  "What other detectors saw: JSON lines, see assets/schema/observation.schema.json")
-      ->delimiter(',');
-  verb.add_flag("--no-markers", no_markers, "Do not look for markers in the pictures")
-      ->needs(verb.get_option("--features"));
+                  "Detections of other detectors: JSON lines, see "
+                  "assets/schema/observation.schema.json")
+      ->delimiter(',')
+      ->option_text("FILE,…")
+      ->group(heading);
+  verb.add_flag("--no-markers", no_markers, "Do not detect markers in the images")
+      ->needs(verb.get_option("--features"))
+      ->group(heading);
   verb.add_option("--inlier-px", inlier_px,
-                  "Features whose residuals are above belong to something else")
+                  "Largest reprojection error of a feature that belongs to an object, pixels")
       ->check(positive_number())
-      ->capture_default_str();
+      ->capture_default_str()
+      ->group(expert_group(heading));
   verb.add_flag("--no-ambiguous", no_ambiguous,
-                "Leave out what one camera sees by one marker, which may be tilted two ways");
+                "Leave out objects seen by one camera with one marker, whose tilt is ambiguous")
+      ->group(expert_group(heading));
 }
 
 SceneReconstructionOptions options_of(const ReconstructCommandOptions& arguments) {

@@ -7,6 +7,7 @@
 #include "cli/command.hpp"
 #include "cli/picture_file.hpp"
 #include "cli/progress_line.hpp"
+#include "cli/shared_options.hpp"
 #include "cli/signal_handler.hpp"
 #include "cli/workers.hpp"
 #include "simulator/color/color_sensor.hpp"
@@ -121,8 +122,7 @@ void add_render_command(CLI::App& app, Action& action) {
   verb->add_option("--samples", options->samples, "Rays through each pixel")
       ->check(CLI::Range(1, 4096))
       ->capture_default_str();
-  verb->add_option("--threads", options->threads, "Threads to use (0: all)")
-      ->check(CLI::Range(0, 1024));
+  add_threads_option(*verb, options->threads);
   verb->parse_complete_callback([&action, options] { action = [=] { return render(*options); }; });
 }
 

@@ -6,10 +6,15 @@
 #include <numbers>
 
 #include "cli/command.hpp"
+#include "cli/help_formatter.hpp"
 #include "cli/number_checks.hpp"
 #include "cli/progress_line.hpp"
+#include "cli/shared_options.hpp"
 #include "cli/signal_handler.hpp"
 #include "cli/workers.hpp"
+#include "options/command_line.hpp"
+#include "options/field_json.hpp"
+#include "options/sensor_fields.hpp"
 #include "simulate/simulated_dataset.hpp"
 #include "simulate/simulation_record.hpp"
 
@@ -22,7 +27,8 @@ struct SimulateOptions {
   fs::path workcell, folder;
   SimulationOptions settings;
   bool ideal_depth = false, no_second_imager = false, no_projector = false;
-  std::optional<double> noise_px, max_incidence_deg;
+  std::optional<double> max_incidence_deg;
+  nlohmann::json given = nlohmann::json::object();  // fields of the sensors
   std::vector<double> distortion;
   bool json = false;
   int threads = 0;
@@ -30,69 +36,49 @@ struct SimulateOptions {
 
 void add_random_options(CLI::App& verb, SimulateOptions& a) {
   SimulationOptions& s = a.settings;
-  verb.add_option("--seed", s.seed, "Of the noise and of random objects; another seed, others");
+  verb.add_option("--seed", s.seed, "Random seed of the noise and of random objects");
   verb.add_option("--objects", s.objects,
-                  "Lay this many objects on the board at random, instead of the workcell's "
+                  "Number of objects to lay on the board at random, instead of the workcell's "
                   "random_objects")
       ->check(CLI::Range(0, 10000));
-  verb.add_option("--types", s.types, "Their types, taken in turns, e.g. red_cube,duck")
+  verb.add_option("--types", s.types,
+                  "Types of the random objects, taken in turns, e.g. red_cube,duck")
       ->delimiter(',');
 }
 
 void add_color_options(CLI::App& verb, SimulateOptions& a) {
-  ColorSensor& color = a.settings.recording.color;
-  verb.add_option("--samples", color.samples_per_pixel, "Rays through each pixel of a colour image")
-      ->check(CLI::Range(1, 4096))
-      ->capture_default_str();
+  ColorSensor color;
+  add_fields(verb, {"", "Colour images", {}, {fields_of(color)}}, a.given);
   verb.add_option("--distortion", a.distortion,
-                  "K1 K2 P1 P2 K3: the colour lens' Brown-Conrady distortion; none without it")
-      ->expected(5);
-  verb.add_option("--vignetting", color.vignetting, "Darker corners: 0 none, 1 the cos⁴ law")
-      ->check(number_between(0.0, 1.0));
-  verb.add_option("--read-noise", color.read_noise,
-                  "Standard deviation of the linear signal; full scale is 1")
-      ->check(number_between(0.0, 1.0));
-  verb.add_option("--shot-noise", color.shot_noise, "Variance for each unit of the linear signal")
-      ->check(number_between(0.0, 1.0));
+                  "Brown-Conrady distortion of the colour lens (default: none)")
+      ->option_text("K1 K2 P1 P2 K3")
+      ->expected(5)
+      ->group("Colour images");
 }
 
 void add_depth_options(CLI::App& verb, SimulateOptions& a) {
-  StereoSensor& depth = a.settings.recording.depth;
-  verb.add_option(
-      "--depth-noise-px", a.noise_px,
-      "Noise of the disparity, pixels; 0: none. Without it, the workcell's volume.noise");
-  verb.add_option("--disparity-step-px", depth.disparity_step_px,
-                  "Disparities are multiples of this; 0: not quantised")
-      ->capture_default_str();
-  verb.add_option("--max-disparity-px", depth.max_disparity_px,
-                  "Nearer surfaces are not found; 0: no limit")
-      ->capture_default_str();
+  const char* heading = "Depth images";
+  StereoSensor depth;
+  double depth_scale_mm = RecordingOptions().depth_scale_mm;
+  add_fields(verb, {"", heading, {depth_scale_field(depth_scale_mm)}, {fields_of(depth)}}, a.given);
   verb.add_flag("--no-second-imager", a.no_second_imager,
-                "No holes where the second imager sees something else");
+                "Measure depth where the second imager does not see the surface, too")
+      ->group(expert_group(heading));
   verb.add_flag("--no-projector", a.no_projector,
-                "No holes in the shadow of the projector's light");
+                "Measure depth where the projector's light does not reach, too")
+      ->group(expert_group(heading));
   verb.add_option("--max-incidence-deg", a.max_incidence_deg,
-                  "Holes where a surface is more slanted than this; 90: no limit (default: 80)")
-      ->check(number_between(1.0, 90.0));
-  verb.add_option("--border-px", depth.border_px, "Pixels without depth along the image's edges")
-      ->capture_default_str();
-  verb.add_option("--flying-pixels", depth.flying_pixels,
-                  "Share of the pixels beside a jump in depth that float in between")
-      ->check(number_between(0.0, 1.0))
-      ->capture_default_str();
-}
-
-void add_depth_format_options(CLI::App& verb, SimulateOptions& a) {
+                  "Largest angle between a surface's normal and the ray that still gets a depth; "
+                  "90: no limit (default: 80)")
+      ->check(number_between(1.0, 90.0))
+      ->group(expert_group(heading));
   CLI::Option* ideal = verb.add_flag("--ideal-depth", a.ideal_depth,
-                                     "Measure every surface exactly: none of the effects above");
+                                     "Measure every surface exactly: none of the effects above")
+                           ->group(heading);
   for (const char* effect : {"--depth-noise-px", "--disparity-step-px", "--max-disparity-px",
                              "--max-incidence-deg", "--border-px", "--flying-pixels"}) {
     ideal->excludes(effect);
   }
-  verb.add_option("--depth-scale-mm", a.settings.recording.depth_scale_mm,
-                  "Millimetres a count of the depth images")
-      ->check(number_between(1e-3, 100.0))
-      ->capture_default_str();
 }
 
 /// The command line's flags on top of the workcell's sensor.
@@ -101,7 +87,10 @@ RecordingOptions recording_of(const SimulateOptions& a, const Workcell& workcell
   StereoSensor& depth = recording.depth;
   depth.noise = workcell.volume.noise;
   if (a.ideal_depth) depth = StereoSensor::ideal();
-  if (a.noise_px) depth.noise.subpixel_px = *a.noise_px;
+  read_given(a.given, {"",
+                       "",
+                       {depth_scale_field(recording.depth_scale_mm)},
+                       {fields_of(recording.color), fields_of(depth)}});
   if (a.no_second_imager) depth.second_imager = false;
   if (a.no_projector) depth.projector = false;
   if (a.max_incidence_deg) {
@@ -148,14 +137,12 @@ void add_simulate_command(CLI::App& app, Action& action) {
   verb->add_option("workcell", options->workcell,
                    "Workcell file (YAML) with cameras and what stands before them")
       ->required();
-  verb->add_option("-o,--output", options->folder, "The dataset's folder; it is made")->required();
+  add_output_option(*verb, options->folder, "the dataset")->required();
   add_random_options(*verb, *options);
   add_color_options(*verb, *options);
   add_depth_options(*verb, *options);
-  add_depth_format_options(*verb, *options);
-  verb->add_flag("--json", options->json, "Print simulation.json on stdout instead of a summary");
-  verb->add_option("--threads", options->threads, "Threads to use (0: all)")
-      ->check(CLI::Range(0, 1024));
+  add_json_flag(*verb, options->json, "simulation.json");
+  add_threads_option(*verb, options->threads);
   verb->parse_complete_callback(
       [&action, options] { action = [=] { return simulate(*options); }; });
 }

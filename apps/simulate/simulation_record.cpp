@@ -3,9 +3,10 @@
 #include <fmt/format.h>
 
 #include "cli/inputs_json.hpp"
+#include "options/field_json.hpp"
+#include "options/sensor_fields.hpp"
 #include "simulate/workcell_export.hpp"
 #include "simulator/scene/ground_truth.hpp"
-#include "vantage/planner/plan.hpp"
 #include "vantage/raycore/detail/file.hpp"
 #include "vantage/raycore/error.hpp"
 #include "version.hpp"
@@ -18,34 +19,22 @@ using Json = nlohmann::ordered_json;
 
 constexpr const char* kRecordName = "simulation.json";
 
-Json color_json(const ColorSensor& color) {
+Json color_json(ColorSensor color) {
   const Distortion& d = color.distortion;
-  return {{"samples_per_pixel", color.samples_per_pixel},
-          {"distortion", {d.k1, d.k2, d.p1, d.p2, d.k3}},
-          {"vignetting", color.vignetting},
-          {"read_noise", color.read_noise},
-          {"shot_noise", color.shot_noise}};
+  Json json{{"samples_per_pixel", color.samples_per_pixel},
+            {"distortion", {d.k1, d.k2, d.p1, d.p2, d.k3}}};
+  json.update(to_json(fields_of(color)));
+  return json;
 }
 
-Json depth_json(const StereoSensor& depth, double depth_scale_mm) {
-  return {{"focal_px", depth.noise.focal_px},
-          {"baseline_m", depth.noise.baseline_m},
-          {"subpixel_px", depth.noise.subpixel_px},
-          {"disparity_step_px", depth.disparity_step_px},
-          {"max_disparity_px", depth.max_disparity_px},
-          {"second_imager", depth.second_imager},
-          {"projector", depth.projector},
-          {"projector_m", depth.projector_m},
-          {"max_incidence_rad", depth.max_incidence_rad},
-          {"border_px", depth.border_px},
-          {"flying_pixels", depth.flying_pixels},
-          {"depth_scale_mm", depth_scale_mm}};
+Json depth_json(StereoSensor depth, double depth_scale_mm) {
+  Json json = to_json(fields_of(depth));
+  json["depth_scale_mm"] = depth_scale_mm;
+  return json;
 }
 
 Json true_volumes_json(const Workcell& workcell, const SimulatedCell& cell) {
-  const double voxel_size_m = workcell.voxel_size_m.value_or(
-      PlanRequest{.work_area = workcell.work_area, .intrinsics = workcell.sensor_intrinsics}
-          .voxel_size_m);
+  const double voxel_size_m = workcell.voxel_size_m;
   std::vector<PinholeCamera> cameras;
   for (const CellCamera& camera : workcell.cameras) cameras.push_back(camera.camera);
   const auto geometry = GridGeometry::covering(workcell.work_area, voxel_size_m);

@@ -10,8 +10,9 @@
 #include "documents/schemas.hpp"
 #include "documents/value_readers.hpp"
 #include "documents/yaml_document.hpp"
+#include "options/field_json.hpp"
+#include "options/volume_fields.hpp"
 #include "workcell/view_list.hpp"
-#include "workcell/volume_settings.hpp"
 #include "workcell/workcell_views.hpp"
 
 namespace vantage {
@@ -59,25 +60,6 @@ std::vector<CellCamera> read_cameras(const Value& value, const Workcell& workcel
   return cameras;
 }
 
-StereoNoise read_noise(const Value& value) {
-  StereoNoise noise;
-  noise.focal_px = value.get("focal_px", noise.focal_px);
-  noise.baseline_m = value.get("baseline_m", noise.baseline_m);
-  noise.subpixel_px = value.get("subpixel_px", noise.subpixel_px);
-  return noise;
-}
-
-VolumeOptions read_volume(const Value& value) {
-  VolumeOptions volume;
-  if (value.has("occluders")) {
-    volume.occluders = occluder_mode_of(value["occluders"].as<std::string>());
-  }
-  if (value.has("anti_alias")) volume.anti_alias = value["anti_alias"].as<bool>();
-  volume.band_sigmas = value.get("band_sigmas", volume.band_sigmas);
-  if (value.has("noise")) volume.noise = read_noise(value["noise"]);
-  return volume;
-}
-
 void read_settings(const Value& root, const fs::path& folder, Workcell& workcell) {
   if (root.has("sensor")) read_sensor(root["sensor"], folder, workcell);
   if (root.has("movable_camera")) read_movable_camera(root["movable_camera"], workcell);
@@ -85,8 +67,9 @@ void read_settings(const Value& root, const fs::path& folder, Workcell& workcell
     workcell.candidates = read_candidates(root["candidates"], folder, workcell.files);
   }
   workcell.constraints = read_constraints(root, folder, workcell.files);
-  if (root.has("voxel_size_m")) workcell.voxel_size_m = root["voxel_size_m"].as<double>();
-  if (root.has("volume")) workcell.volume = read_volume(root["volume"]);
+  read_fields(root,
+              {"", "", {voxel_size_field(workcell.voxel_size_m)}, {fields_of(workcell.volume)}});
+  if (root.has("plan")) read_fields(root["plan"], fields_of(workcell.plan));
   if (root.has("cameras")) workcell.cameras = read_cameras(root["cameras"], workcell);
 }
 

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "options/view_options.hpp"
 #include "vantage/planner/view_candidates.hpp"
 #include "vantage/planner/view_constraints.hpp"
 #include "vantage/raycore/box.hpp"
@@ -47,8 +48,9 @@ struct Workcell {
   std::optional<Board> board = {};
   std::vector<CellCamera> cameras = {};              ///< for the simulator
   std::optional<RandomObjects> random_objects = {};  ///< not placed yet: `place_random_objects`
-  std::optional<double> voxel_size_m = {};
+  double voxel_size_m = 0.009375;                    ///< the thesis' smallest voxel
   VolumeOptions volume = {};
+  ViewOptions plan = {};  ///< how views are scored and chosen, where the command line is silent
   std::vector<std::filesystem::path> files = {};  ///< every file that was read, once
 };
 

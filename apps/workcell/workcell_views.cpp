@@ -4,6 +4,8 @@
 #include <fmt/ranges.h>
 
 #include "documents/value_readers.hpp"
+#include "options/candidate_fields.hpp"
+#include "options/field_json.hpp"
 #include "workcell/npy_file.hpp"
 #include "workcell/view_list.hpp"
 
@@ -29,36 +31,26 @@ void check_one_kind(const Value& value) {
       fmt::join(others, ", ")));
 }
 
-ViewFan read_fan(const Value& value, ViewFan fan) {
-  fan.rings = value.get("rings", fan.rings);
-  fan.step_rad = value.get("ring_step_rad", fan.step_rad);
-  return fan;
-}
-
 HalfSpheres read_half_spheres(const Value& value) {
-  HalfSpheres spheres = half_spheres_of(value.get<std::string>("set", "production"),
-                                        value.get("radii_m", std::vector<double>()));
-  if (value.has("count")) {
-    const Value count = value["count"];
-    spheres.counts =
-        count.is_array() ? count.as<std::vector<int>>() : std::vector<int>{count.as<int>()};
-  }
-  spheres.fan = read_fan(value, spheres.fan);
+  HalfSpheres own;
+  read_fields(value, fields_of(own));
+  HalfSpheres spheres = half_spheres_of(value.get<std::string>("set", "production"), own.radii_m);
+  read_fields(value, fields_of(spheres));
   return spheres;
 }
 
 BoxGrid read_box_grid(const Value& value) {
   const auto counts = value["counts"].as<std::vector<int>>();
-  return {read_box(value), {counts[0], counts[1], counts[2]}, read_fan(value, {})};
+  BoxGrid grid{read_box(value), {counts[0], counts[1], counts[2]}};
+  read_fields(value, fields_of(grid));
+  return grid;
 }
 
 AroundPath read_around_path(const Value& value, const fs::path& folder,
                             std::vector<fs::path>& files) {
   AroundPath around;
   around.path = read_views(value["path"], folder, files);
-  around.step_m = value.get("step_m", around.step_m);
-  around.radius_m = value.get("radius_m", around.radius_m);
-  around.count = value.get("count", around.count);
+  read_fields(value, fields_of(around));
   return around;
 }
 
@@ -126,7 +118,7 @@ ViewConstraints read_constraints(const Value& root, const fs::path& folder,
   ViewConstraints limits;
   if (root.has("reach")) read_reach(root["reach"], folder, files, limits);
   if (root.has("view_cone")) limits.view_cone = read_cone(root["view_cone"]);
-  limits.clearance_m = root.get("clearance_m", limits.clearance_m);
+  read_fields(root, {"", "", {clearance_field(limits)}});
   if (!root.has("camera_body")) return limits;
   const Value body = root["camera_body"];
   if (body.has("sphere")) limits.body = SphereBody{body["sphere"]["radius_m"].as<double>()};

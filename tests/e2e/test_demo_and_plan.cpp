@@ -256,7 +256,7 @@ TEST_CASE("methods, further views and explanations, by the command line") {
   CHECK(polished["best"]["score"] >= raw["best"]["score"]);
   CHECK(polished["candidates"].size() == raw["candidates"].size());
   CHECK(run_vantage(plan + " --polish -1").exit_code == 2);
-  CHECK(run_vantage(plan + " --travel-weight 2").exit_code == 2);  // from where?
+  CHECK(run_vantage(plan + " --travel-weight 2").exit_code == 3);  // from where?
   CHECK(run_vantage(plan + " --method depth").exit_code == 2);
 }
 

@@ -13,10 +13,11 @@
 #include "evaluate/planning/planning_json.hpp"
 #include "evaluate/planning/planning_options.hpp"
 #include "metrics/planning/planning_tables.hpp"
+#include "options/field_json.hpp"
+#include "options/view_options.hpp"
 #include "plan/report/plan_json.hpp"
 #include "vantage/raycore/detail/file.hpp"
 #include "version.hpp"
-#include "workcell/volume_settings.hpp"
 
 namespace vantage {
 namespace {
@@ -37,9 +38,8 @@ struct PlanningResult {
 PlanningBenchmarkOptions options_of(const PlanningCommandOptions& options) {
   PlanningBenchmarkOptions settings = options.benchmark;
   choose(options.methods, options.sets, settings);
-  settings.servo.check();
-  settings.polish.check();
-  if (!options.occluders.empty()) settings.occluders = occluder_mode_of(options.occluders);
+  settings.given = options.given;
+  read_given(options.given, {"", "", {}, {fields_of(settings.servo), fields_of(settings.polish)}});
   const bool drawn = !options.folder.empty() && !options.no_pictures;
   settings.picture_width = drawn ? kPictureWidth : 0;
   return settings;
@@ -86,7 +86,7 @@ Json config_json(const PlanningCommandOptions& options, const PlanningBenchmarkO
       {"servo",
        {{"iterations", settings.servo.iterations}, {"image_width", settings.servo.image_width}}},
       {"polish", {{"views", settings.polish.views}, {"image_width", settings.polish.image_width}}},
-      {"voxel_size_m", settings.voxel_size_m ? Json(*settings.voxel_size_m) : Json()}};
+      {"voxel_size_m", settings.given.value("voxel_size_m", Json())}};
 }
 
 Json config_json(const PlanRequest& request) {

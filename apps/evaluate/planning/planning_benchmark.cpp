@@ -6,6 +6,8 @@
 
 #include "cli/picture_file.hpp"
 #include "cli/run_time.hpp"
+#include "options/field_json.hpp"
+#include "options/volume_fields.hpp"
 #include "plan/report/plan_pictures.hpp"
 #include "simulator/scene/ground_truth.hpp"
 #include "vantage/planner/advanced/planning_scene.hpp"
@@ -37,13 +39,13 @@ class SceneRun {
   SceneRun(const PlanningCell& cell, const PlanningBenchmarkOptions& settings,
            const StopToken& stop)
       : cell_(cell), settings_(settings), stop_(stop), request_(cell.request) {
-    if (settings.voxel_size_m) request_.voxel_size_m = *settings.voxel_size_m;
     request_.servo = settings.servo;
     request_.polish = settings.polish;
-    if (settings.occluders) {
-      request_.volume.occluders = *settings.occluders;
-      request_.volume.anti_alias.reset();  // as goes with it
+    if (settings.given.contains(nlohmann::json::json_pointer("/volume/occluders"))) {
+      request_.volume.anti_alias.reset();
     }
+    read_given(settings.given,
+               {"", "", {voxel_size_field(request_.voxel_size_m)}, {fields_of(request_.volume)}});
   }
 
   EvaluatedScene run() {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -33,10 +34,11 @@ struct PlanningBenchmarkOptions {
                                      ///< has the first and the last. Empty: from the work area
   ServoOptions servo = {};
   PolishOptions polish = {};
-  std::optional<double> voxel_size_m{};     ///< none: the workcell's
-  std::optional<OccluderMode> occluders{};  ///< none: the workcell's, as is anti-aliasing then
-  int repeat = 1;                           ///< times that everything is timed
-  int picture_width = 0;                    ///< of the overviews; 0: none
+  /// Fields of the voxel size and the volume (options/) that override the workcells'. With other
+  /// occluders, anti-aliasing is as goes with them.
+  nlohmann::json given = nlohmann::json::object();
+  int repeat = 1;         ///< times that everything is timed
+  int picture_width = 0;  ///< of the overviews; 0: none
 };
 
 /// Puts the methods and sets in order; `voxel` is always among them, because it is the measure.

@@ -1,7 +1,12 @@
 #include "evaluate/planning/planning_options.hpp"
 
 #include "cli/number_checks.hpp"
+#include "cli/shared_options.hpp"
 #include "evaluate/planning/planning_cell.hpp"
+#include "options/command_line.hpp"
+#include "options/view_options.hpp"
+#include "options/volume_fields.hpp"
+#include "workcell/workcell.hpp"
 
 namespace vantage {
 namespace {
@@ -17,10 +22,15 @@ void add_input_options(CLI::App& verb, PlanningCommandOptions& options) {
                   "thesis' methods), ideal, or the workcell's noisy sensor")
       ->check(CLI::IsMember(kDepthKinds))
       ->capture_default_str();
-  verb.add_option("--seed", options.seed, "Of the depth images' noise")->capture_default_str();
+  verb.add_option("--seed", options.seed, "Random seed of the depth images' noise")
+      ->capture_default_str();
 }
 
 void add_method_options(CLI::App& verb, PlanningCommandOptions& options) {
+  double voxel_size_m = Workcell{.work_area = Box({0, 0, 0}, {1, 1, 1})}.voxel_size_m;
+  ServoOptions servo;
+  PolishOptions polish;
+  VolumeOptions volume;
   verb.add_option(
           "--methods", options.methods,
           "Methods, e.g. voxel,shadowD6,mesh,light; D and a number is the power of the depth. "
@@ -38,35 +48,24 @@ void add_method_options(CLI::App& verb, PlanningCommandOptions& options) {
       ->delimiter(',')
       ->expected(3)
       ->check(positive_number());
-  verb.add_option("--servo", options.benchmark.servo.iterations, "Servo iterations; 0: none")
-      ->check(CLI::Range(0, 100))
-      ->capture_default_str();
-  verb.add_option(
-          "--polish", options.benchmark.polish.views,
-          "So many of a method's best views are moved around the shadow and turned, as long "
-          "as that makes them better; 0: none, as in the thesis")
-      ->check(CLI::Range(0, 1000))
-      ->capture_default_str();
-  verb.add_option("--voxel-size", options.benchmark.voxel_size_m,
-                  "Edge of a voxel, metres (default: the workcell's, else 0.009375)")
-      ->check(positive_number());
-  verb.add_option("--occluders", options.occluders,
-                  "What hides: the known objects' exact meshes, or as in the thesis their voxels, "
-                  "with anti-aliasing (default: the workcell's)")
-      ->check(CLI::IsMember({"mesh", "voxels"}));
+  add_fields(verb,
+             {"",
+              "Method",
+              {voxel_size_field(voxel_size_m)},
+              {fields_of(servo), fields_of(polish), fields_of(volume)}},
+             options.given);
   verb.add_option("--repeat", options.benchmark.repeat,
-                  "Time everything so often; run times are medians")
+                  "Number of timed repetitions, whose medians are reported")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
 }
 
 void add_output_options(CLI::App& verb, PlanningCommandOptions& options) {
-  verb.add_option("-o,--output", options.folder,
-                  "Folder for planning.html, planning.json and charts as SVG");
-  verb.add_flag("--no-pictures", options.no_pictures, "A page without pictures of the scenes");
-  verb.add_flag("--json", options.json, "Print planning.json instead of tables");
-  verb.add_option("--threads", options.threads, "Threads to use (0: all)")
-      ->check(CLI::Range(0, 1024));
+  add_output_option(verb, options.folder, "planning.html, planning.json and charts as SVG");
+  verb.add_flag("--no-pictures", options.no_pictures, "Leave the scenes' pictures out of the page")
+      ->group("Output");
+  add_json_flag(verb, options.json, "planning.json");
+  add_threads_option(verb, options.threads);
 }
 
 }  // namespace

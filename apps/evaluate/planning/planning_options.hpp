@@ -17,9 +17,10 @@ struct PlanningCommandOptions {
   std::vector<std::string> methods{"voxel", "shadowD0", "shadowD3", "shadowD6",
                                    "mesh",  "meshD6",   "light"};
   std::vector<std::string> sets{"full", "production"};
-  std::string depth = "none", occluders;
+  std::string depth = "none";
   std::uint64_t seed = 0;
   PlanningBenchmarkOptions benchmark;
+  nlohmann::json given = nlohmann::json::object();  ///< fields of the volume, servo and polish
   bool no_pictures = false, json = false;
   int threads = 0;
 

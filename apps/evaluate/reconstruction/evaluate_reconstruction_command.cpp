@@ -10,6 +10,7 @@
 #include "cli/inputs_json.hpp"
 #include "cli/number_checks.hpp"
 #include "cli/progress_line.hpp"
+#include "cli/shared_options.hpp"
 #include "cli/signal_handler.hpp"
 #include "cli/workers.hpp"
 #include "evaluate/reconstruction/evaluation_report.hpp"
@@ -130,31 +131,30 @@ ExitCode evaluate(const EvaluationCommandOptions& arguments) {
 void add_disturbance_options(CLI::App& verb, ReconstructionEvaluationOptions& settings) {
   Perturbation& perturbation = settings.perturbation;
   verb.add_option("--noise-px", perturbation.noise_px,
-                  "Standard deviation added to what was detected, pixels")
+                  "Standard deviation of the noise added to detections, pixels")
       ->check(number_from_zero());
-  verb.add_option("--drop", perturbation.drop, "Share of the detected features that is lost")
+  verb.add_option("--drop", perturbation.drop, "Share of the detected features to drop")
       ->check(number_between(0.0, 1.0));
-  verb.add_option(
-          "--wrong-ids", perturbation.wrong_ids,
-          "Share of the markers, the board's too, that is read as another of the dictionary")
+  verb.add_option("--wrong-ids", perturbation.wrong_ids,
+                  "Share of the markers, the board's included, whose id is misread")
       ->check(number_between(0.0, 1.0));
-  verb.add_option("--seed", perturbation.seed, "Of these; another seed, others")
+  verb.add_option("--seed", perturbation.seed, "Random seed of the perturbations")
       ->capture_default_str();
-  verb.add_option("--trials", settings.trials, "Disturb each subset so often, each time otherwise")
+  verb.add_option("--trials", settings.trials, "Number of random perturbations of each subset")
       ->check(CLI::Range(1, 100000))
       ->capture_default_str();
 }
 
 void add_subset_options(CLI::App& verb, EvaluationCommandOptions& arguments) {
-  verb.add_option("--methods", arguments.methods, "Which ones, e.g. svd,pnp")
+  verb.add_option("--methods", arguments.methods, "Methods to compare, e.g. svd,pnp")
       ->delimiter(',')
       ->check(CLI::IsMember(kReconstructionMethods))
       ->capture_default_str();
   verb.add_option("--sizes", arguments.sizes,
-                  "Subsets of so many cameras: 3, 2-9, or 2- for two to all")
+                  "Numbers of cameras in a subset: 3, 2-9, or 2- for two and more")
       ->capture_default_str();
   verb.add_option("--subsets", arguments.subsets,
-                  "All of these sizes, or those that see every object that all cameras see")
+                  "all, or only those that see every object that all cameras together see")
       ->check(CLI::IsMember({"all", "covering"}))
       ->capture_default_str();
   verb.add_option("--correct", arguments.settings.correct,
@@ -174,16 +174,13 @@ void add_evaluate_reconstruction(CLI::App& evaluate_verb, Action& action) {
                    "Workcell file (YAML) with knowledge_base; of a simulated dataset its own "
                    "workcell.yaml, which has the truth. Else that is the dataset's scene_gt.json")
       ->required();
-  verb->add_option("-o,--output", arguments->folder,
-                   "Folder for reconstruction.json and reconstruction.svg");
-  verb->add_option("--images", arguments->images, "Use these images of the dataset only, e.g. 0,2")
-      ->delimiter(',');
+  add_output_option(*verb, arguments->folder, "reconstruction.json and reconstruction.svg");
+  add_images_option(*verb, arguments->images);
   add_subset_options(*verb, *arguments);
   arguments->how.add_to(*verb);
   add_disturbance_options(*verb, arguments->settings);
-  verb->add_flag("--json", arguments->json, "Print reconstruction.json instead of a table");
-  verb->add_option("--threads", arguments->threads, "Threads to use (0: all)")
-      ->check(CLI::Range(0, 1024));
+  add_json_flag(*verb, arguments->json, "reconstruction.json");
+  add_threads_option(*verb, arguments->threads);
   verb->parse_complete_callback(
       [&action, arguments] { action = [=] { return evaluate(*arguments); }; });
 }

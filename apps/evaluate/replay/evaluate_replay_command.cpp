@@ -7,12 +7,14 @@
 #include "cli/inputs_json.hpp"
 #include "cli/number_checks.hpp"
 #include "cli/progress_line.hpp"
+#include "cli/shared_options.hpp"
 #include "cli/signal_handler.hpp"
 #include "cli/workers.hpp"
 #include "evaluate/replay/replay_benchmark.hpp"
 #include "evaluate/replay/replay_json.hpp"
 #include "metrics/planning/replay_tables.hpp"
-#include "plan/method_options.hpp"
+#include "options/command_line.hpp"
+#include "options/view_options.hpp"
 #include "plan/plan_options.hpp"
 #include "vantage/raycore/detail/file.hpp"
 
@@ -25,19 +27,18 @@ using Json = nlohmann::ordered_json;
 struct ReplayCommandOptions {
   PlanOptions plan;
   std::vector<std::string> methods{"voxel", "mesh", "meshD6"};
-  MeshOptions mesh;
   ReplayBenchmarkOptions settings;
   fs::path folder;
   bool json = false;
   int threads = 0;
 };
 
-ReplayBenchmarkOptions options_of(const ReplayCommandOptions& arguments) {
+ReplayBenchmarkOptions options_of(const ReplayCommandOptions& arguments, const MeshOptions& mesh) {
   ReplayBenchmarkOptions settings = arguments.settings;
   settings.methods = named_methods(arguments.methods);
   for (NamedMethod& method : settings.methods) {
     const MeshWeight named = method.options.mesh.weight;
-    method.options.mesh = arguments.mesh;
+    method.options.mesh = mesh;
     method.options.mesh.weight = named;
   }
   return settings;
@@ -45,8 +46,7 @@ ReplayBenchmarkOptions options_of(const ReplayCommandOptions& arguments) {
 
 Json config_json(const ReplayCommandOptions& arguments, const PlanInput& input) {
   PlanRequest request = input.request;
-  request.method = {.name = "mesh", .mesh = arguments.mesh};
-  request.method.mesh.visibility.noise = request.volume.noise;
+  request.method.name = "mesh";
   const Json all = config_of(request);
   Json config = input.record.config;
   config.update({{"methods", arguments.methods},
@@ -71,10 +71,10 @@ std::string text_of(const ReplayEvaluation& evaluation) {
 ExitCode evaluate(const ReplayCommandOptions& arguments) {
   const StopToken stop;
   const SignalHandler interrupt({stop});
-  const ReplayBenchmarkOptions settings = options_of(arguments);
   Workers workers(arguments.threads);
   PlanInput input = workers.execute([&] { return load_plan_input(arguments.plan, stop); });
   for (const std::string& warning : input.warnings) spdlog::warn("{}", warning);
+  const ReplayBenchmarkOptions settings = options_of(arguments, input.request.method.mesh);
   const ReplayEvaluation evaluation = workers.execute([&] {
     const ProgressLine progress("replaying", stop);
     return evaluate_replay(input, settings, stop);
@@ -98,14 +98,13 @@ void add_replay_options(CLI::App& verb, ReplayCommandOptions& arguments) {
                   "Methods, e.g. voxel,mesh,shadowD6; D and a number is the power of the depth")
       ->delimiter(',')
       ->capture_default_str();
-  verb.add_option("--pairs", settings.pairs, "So many pairs of frames to plan from")
+  verb.add_option("--pairs", settings.pairs, "Number of pairs of frames to plan from")
       ->check(CLI::Range(1, 1000000))
       ->capture_default_str();
-  verb.add_option("--seed", settings.seed, "Of their choice; another seed, other pairs")
-      ->capture_default_str();
+  verb.add_option("--seed", settings.seed, "Seed for selecting pairs")->capture_default_str();
   verb.add_option("--least-seen", settings.min_seen,
-                  "Frames of a pair show at least this share of the work area each; all others "
-                  "may be picked")
+                  "Minimum share of the work area that each frame of a pair shows; all other "
+                  "frames are candidates")
       ->check(number_between(0.0, 1.0))
       ->capture_default_str();
 }
@@ -120,13 +119,13 @@ void add_evaluate_replay(CLI::App& evaluate_verb, Action& action) {
   const auto arguments = std::make_shared<ReplayCommandOptions>();
   add_input_options(*verb, arguments->plan);
   add_replay_options(*verb, *arguments);
-  add_mesh_options(*verb, arguments->mesh);
+  MeshOptions mesh;
+  add_fields(*verb, {"", "", {}, {fields_of(mesh)}}, arguments->plan.given);
   add_object_options(*verb, arguments->plan.objects);
   add_volume_options(*verb, arguments->plan);
-  verb->add_option("-o,--output", arguments->folder, "Folder for replay.json");
-  verb->add_flag("--json", arguments->json, "Print replay.json instead of tables");
-  verb->add_option("--threads", arguments->threads, "Threads to use (0: all)")
-      ->check(CLI::Range(0, 1024));
+  add_output_option(*verb, arguments->folder, "replay.json");
+  add_json_flag(*verb, arguments->json, "replay.json");
+  add_threads_option(*verb, arguments->threads);
   verb->parse_complete_callback(
       [&action, arguments] { action = [=] { return evaluate(*arguments); }; });
 }

@@ -5,6 +5,7 @@
 #include "cli/inputs_json.hpp"
 #include "cli/number_checks.hpp"
 #include "cli/progress_line.hpp"
+#include "cli/shared_options.hpp"
 #include "cli/signal_handler.hpp"
 #include "cli/workers.hpp"
 #include "evaluate/shadow_filters/shadow_filter_benchmark.hpp"
@@ -115,7 +116,7 @@ void add_mesh_options(CLI::App& verb, ShadowFilterCommandOptions& options) {
 void add_evaluate_shadow_filters(CLI::App& evaluate_verb, Action& action) {
   CLI::App* verb = evaluate_verb.add_subcommand(
       "shadow-filters",
-      "Ways to be rid of the false shadow that noisy depth makes, on simulated workcells: "
+      "Compare filters of the false shadow that noisy depth makes, on simulated workcells: "
       "precision and recall of the shadow's volume against what is truly hidden");
   const auto options = std::make_shared<ShadowFilterCommandOptions>();
   verb->add_option("scenes", options->scenes,
@@ -124,10 +125,10 @@ void add_evaluate_shadow_filters(CLI::App& evaluate_verb, Action& action) {
       ->required();
   add_filter_options(*verb, options->settings);
   add_mesh_options(*verb, *options);
-  verb->add_option("--seed", options->seed, "Of the depth images' noise")->capture_default_str();
-  verb->add_flag("--json", options->json, "Print JSON instead of tables");
-  verb->add_option("--threads", options->threads, "Threads to use (0: all)")
-      ->check(CLI::Range(0, 1024));
+  verb->add_option("--seed", options->seed, "Random seed of the depth images' noise")
+      ->capture_default_str();
+  add_json_flag(*verb, options->json, "JSON");
+  add_threads_option(*verb, options->threads);
   verb->parse_complete_callback(
       [&action, options] { action = [=] { return evaluate(*options); }; });
 }

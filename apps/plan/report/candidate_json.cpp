@@ -1,6 +1,8 @@
 #include "plan/report/candidate_json.hpp"
 
 #include "cli/pose_json.hpp"
+#include "options/candidate_fields.hpp"
+#include "options/field_json.hpp"
 
 namespace vantage {
 namespace {
@@ -11,29 +13,22 @@ Json box_json(const Box& box) {
   return {{"min_m", to_json(box.min())}, {"max_m", to_json(box.max())}};
 }
 
-Json with_fan(Json set, const ViewFan& fan) {
-  set["rings"] = fan.rings;
-  set["ring_step_rad"] = fan.step_rad;
-  return set;
-}
-
 Json kind_json(const HalfSpheres& given, const Box& work_area) {
-  const HalfSpheres set = resolve_defaults(given, work_area);
-  return with_fan({{"radii_m", set.radii_m}, {"count", set.counts}}, set.fan);
+  HalfSpheres set = resolve_defaults(given, work_area);
+  return to_json(fields_of(set));
 }
 
-Json kind_json(const BoxGrid& grid, const Box&) {
+Json kind_json(BoxGrid grid, const Box&) {
   Json json = box_json(grid.box);
   json["counts"] = {grid.counts.x(), grid.counts.y(), grid.counts.z()};
-  return {{"box_grid", with_fan(json, grid.fan)}};
+  json.update(to_json(fields_of(grid)));
+  return {{"box_grid", json}};
 }
 
-Json kind_json(const AroundPath& around, const Box&) {
-  return {{"around_path",
-           {{"path", around.path.size()},
-            {"step_m", around.step_m},
-            {"radius_m", around.radius_m},
-            {"count", around.count}}}};
+Json kind_json(AroundPath around, const Box&) {
+  Json json{{"path", around.path.size()}};
+  json.update(to_json(fields_of(around)));
+  return {{"around_path", json}};
 }
 
 Json kind_json(const ViewList& list, const Box&) {

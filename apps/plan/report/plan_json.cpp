@@ -5,10 +5,12 @@
 #include "cli/inputs_json.hpp"
 #include "cli/pose_json.hpp"
 #include "cli/run_time.hpp"
+#include "options/field_json.hpp"
+#include "options/view_options.hpp"
+#include "options/volume_fields.hpp"
 #include "plan/report/candidate_json.hpp"
 #include "plan/report/views_json.hpp"
 #include "version.hpp"
-#include "workcell/volume_settings.hpp"
 
 namespace vantage {
 namespace {
@@ -74,12 +76,6 @@ Json warnings_json(const Plan& plan) {
   return plan.classified == nullptr ? Json::array() : Json(plan.classified->report().warnings);
 }
 
-namespace {
-
-using Json = nlohmann::ordered_json;
-
-}  // namespace
-
 Json plan_to_json(const Plan& plan, const ShadowRegions* regions,
                   const std::vector<ViewExplanation>& explained, const PlanRecord& record) {
   return {{"vantage", kVersion},
@@ -124,30 +120,28 @@ Json camera_json(const PlanRequest& request) {
 namespace {
 
 /// Null for the methods that it does not concern.
-Json mesh_json(const MethodOptions& method) {
+Json mesh_json(MethodOptions method) {
   if (method.name != "mesh") return nullptr;
-  const VisibilityOptions& visibility = method.mesh.visibility;
-  return {{"weight", method.mesh.weight == MeshWeight::volume ? "volume" : "depth"},
-          {"step_px", visibility.step_px},
-          {"holes", visibility.holes == DepthHoles::fill ? "fill" : "unknown"},
-          {"fill_reach_px", visibility.fill_reach_px},
-          {"offset_sigmas", visibility.offset_sigmas},
-          {"opening_m", method.mesh.opening_m},
-          {"enlarge", method.mesh.enlarge},
-          {"image_width", method.mesh.image_width},
-          {"exact_views", method.mesh.exact_views},
-          {"shortlist", method.mesh.shortlist},
-          {"shortlist_voxel_m", method.mesh.shortlist_voxel_m}};
+  Json json{{"weight", method.mesh.weight == MeshWeight::volume ? "volume" : "depth"}};
+  json.update(to_json(fields_of(method.mesh)));
+  return json;
+}
+
+Json travel_json(const PlanRequest& request) {
+  if (!request.search.travel) return nullptr;
+  return {{"weight_per_m", request.search.travel->weight_per_m},
+          {"from_m", to_json(request.search.travel->from_m)}};
+}
+
+Json volume_json(VolumeOptions volume) {
+  volume.anti_alias = volume.anti_aliased();
+  return to_json(fields_of(volume));
 }
 
 }  // namespace
 
-Json config_of(const PlanRequest& request) {
-  Json travel;
-  if (request.search.travel) {
-    travel = {{"weight_per_m", request.search.travel->weight_per_m},
-              {"from_m", to_json(request.search.travel->from_m)}};
-  }
+Json config_of(const PlanRequest& used) {
+  PlanRequest request = used;  // the descriptions point into it
   return {
       {"work_area",
        {{"min_m", to_json(request.work_area.min())}, {"max_m", to_json(request.work_area.max())}}},
@@ -155,16 +149,12 @@ Json config_of(const PlanRequest& request) {
       {"constraints", config_of(request.constraints)},
       {"depth_power", request.method.depth_power},
       {"mesh", mesh_json(request.method)},
-      {"servo",
-       {{"iterations", request.servo.iterations}, {"image_width", request.servo.image_width}}},
-      {"polish", {{"views", request.polish.views}, {"image_width", request.polish.image_width}}},
+      {"servo", to_json(fields_of(request.servo))},
+      {"polish", to_json(fields_of(request.polish))},
       {"ranked", request.search.ranked},
-      {"travel", travel},
-      {"views",
-       {{"most", request.views.most},
-        {"least_gain_m3", request.views.min_gain_m3},
-        {"least_gain_share", request.views.min_gain_share}}},
-      {"volume", config_of(request.volume)}};
+      {"travel", travel_json(request)},
+      {"views", to_json(fields_of(request.views))},
+      {"volume", volume_json(request.volume)}};
 }
 
 }  // namespace vantage

@@ -67,11 +67,47 @@ TEST_CASE("the planner gets the workcell's candidates and limits, the command li
 
   const auto views = folder.write("v.yaml", "views: [{eye_m: [1, 0, 1], target_m: [0, 0, 0]}]\n");
   options.candidates.set = views.string();
-  options.candidates.clearance_m = 0.01;
+  options.candidates.given["clearance_m"] = 0.01;
   const PlanInput changed = load_plan_input(options);
   CHECK(std::get<ViewList>(changed.request.candidates).poses.size() == 1);
   CHECK(changed.request.constraints.clearance_m == 0.01);
   CHECK(std::ranges::count(changed.record.inputs, views) == 1);
+}
+
+TEST_CASE("a workcell says how to plan, and the command line overrides it field by field") {
+  SceneFolder scene;
+  scene.good_entry().depth().color();
+  TemporaryFolder folder;
+  PlanOptions options;
+  options.dataset = scene.path();
+  options.objects.objects = "given";
+  options.workcell = folder.write("cell.yaml",
+                                  "work_area: {min_m: [-1, -1, 0], max_m: [1, 1, 0.5]}\n"
+                                  "known_objects: []\n"
+                                  "voxel_size_m: 0.02\n"
+                                  "volume: {band_sigmas: 3, noise: {baseline_m: 0.1}}\n"
+                                  "plan:\n"
+                                  "  method: mesh\n"
+                                  "  mesh: {opening_m: 0.01, weight: depth}\n"
+                                  "  servo: {iterations: 2}\n"
+                                  "  views: {most: 3}\n");
+  options.given = {{"servo", {{"image_width", 80}}}, {"volume", {{"band_sigmas", 5}}}};
+  const PlanRequest request = load_plan_input(options).request;
+  CHECK(request.method.name == "mesh");
+  CHECK(request.method.mesh.opening_m == 0.01);
+  CHECK(request.method.mesh.weight == MeshWeight::depth);
+  CHECK(request.method.mesh.visibility.noise.baseline_m == 0.1);
+  CHECK(request.servo.iterations == 2);
+  CHECK(request.servo.image_width == 80);
+  CHECK(request.views.most == 3);
+  CHECK(request.voxel_size_m == 0.02);
+  CHECK(request.volume.band_sigmas == 5);
+  CHECK(request.volume.noise.baseline_m == 0.1);
+
+  options.workcell = folder.write("wrong.yaml",
+                                  "work_area: {min_m: [-1, -1, 0], max_m: [1, 1, 0.5]}\n"
+                                  "plan: {servo: {iteration: 2}}\n");
+  expect_bad_input("wrong.yaml:2", "iterations", [&] { load_plan_input(options); });
 }
 
 }  // namespace vantage::test

@@ -184,7 +184,7 @@ TEST_CASE("another voxel size, and everything timed several times: the same pick
   const TemporaryFolder folder;
   const PlanningCell cell = small_cell(folder, "");
   PlanningBenchmarkOptions settings = small_settings(1);
-  settings.voxel_size_m = 0.04;
+  settings.given["voxel_size_m"] = 0.04;
   settings.repeat = 3;
   const SceneEvaluation scene = evaluate(cell, settings), again = evaluate(cell, settings);
   CHECK(scene.voxel_size_m == 0.04);

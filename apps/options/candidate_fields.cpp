@@ -1,0 +1,88 @@
+#include "options/candidate_fields.hpp"
+
+#include <numbers>
+
+namespace vantage {
+namespace {
+
+constexpr const char* kHeading = "Candidates";
+
+FieldGroup fan_fields(ViewFan& fan) {
+  return {
+      "",
+      kHeading,
+      {{.key = "rings",
+        .value = &fan.rings,
+        .help = "Rings of further directions at each position: 8 in the first, 16 in the next …",
+        .option = "--rings",
+        .range = from_to(0, 50)},
+       {.key = "ring_step_rad",
+        .value = &fan.step_rad,
+        .help = "Angle from ring to ring",
+        .option = "--ring-step",
+        .unit = "rad",
+        .range = from_to(1e-6, std::numbers::pi)}}};
+}
+
+}  // namespace
+
+FieldGroup fields_of(HalfSpheres& spheres) {
+  return {"candidates",
+          kHeading,
+          {{.key = "radii_m",
+            .value = &spheres.radii_m,
+            .help = "Radii of the half-spheres, e.g. 0.6,0.9",
+            .option = "--radii",
+            .unit = "m",
+            .range = positive(),
+            .fallback = "from the work area's size"},
+           {.key = "count",
+            .value = &spheres.counts,
+            .help = "Positions on each half-sphere: one number, or one for each, e.g. 20,40",
+            .option = "--count",
+            .range = from_to(1, 1000000),
+            .fallback = "the set's"}},
+          {fan_fields(spheres.fan)}};
+}
+
+FieldGroup fields_of(BoxGrid& grid) {
+  return {"candidates", kHeading, {}, {fan_fields(grid.fan)}};
+}
+
+FieldGroup fields_of(AroundPath& around) {
+  return {"candidates",
+          kHeading,
+          {{.key = "step_m",
+            .value = &around.step_m,
+            .help = "Distance from pose to pose along the path",
+            .unit = "m",
+            .range = positive()},
+           {.key = "radius_m",
+            .value = &around.radius_m,
+            .help = "Radius of the sphere around each of them on which further poses are",
+            .unit = "m",
+            .range = positive()},
+           {.key = "count",
+            .value = &around.count,
+            .help = "Poses on each sphere",
+            .range = from_to(1, 1000000)}}};
+}
+
+FieldGroup fields_of(ViewList&) {
+  return {"candidates", kHeading, {}};
+}
+
+FieldGroup fields_of(CandidateSet& set) {
+  return std::visit([](auto& kind) { return fields_of(kind); }, set);
+}
+
+Field clearance_field(ViewConstraints& constraints) {
+  return {.key = "clearance_m",
+          .value = &constraints.clearance_m,
+          .help = "Minimum distance of the camera's body from the floor and everything occupied",
+          .option = "--clearance",
+          .unit = "m",
+          .range = not_negative()};
+}
+
+}  // namespace vantage

@@ -1,0 +1,20 @@
+#pragma once
+
+#include "options/field.hpp"
+#include "vantage/planner/view_candidates.hpp"
+#include "vantage/planner/view_constraints.hpp"
+
+namespace vantage {
+
+// The kinds of candidates, and where the camera may be. The descriptions point into what they
+// describe; boxes, paths and lists of poses are not among the fields.
+
+FieldGroup fields_of(HalfSpheres& spheres);
+FieldGroup fields_of(BoxGrid& grid);
+FieldGroup fields_of(AroundPath& around);
+FieldGroup fields_of(ViewList& list);  ///< none
+FieldGroup fields_of(CandidateSet& set);
+
+Field clearance_field(ViewConstraints& constraints);
+
+}  // namespace vantage

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+
+#include "options/field.hpp"
+#include "vantage/planner/plan.hpp"
+
+namespace vantage {
+
+/// How views are scored, refined and chosen: what a workcell's `plan` and the command line say of
+/// it.
+struct ViewOptions {
+  MethodOptions method;
+  std::optional<double> depth_power;      ///< not given: the default
+  std::optional<MeshWeight> mesh_weight;  ///< not given: by depth if its power is
+  ServoOptions servo;
+  PolishOptions polish;
+  int ranked = SearchOptions().ranked;
+  double travel_weight_per_m = 0;
+  std::optional<Eigen::Vector3d> from_m;  ///< none: journeys cost nothing
+  ViewSequenceOptions views;
+
+  /// Puts all of it into a request.
+  /// @throws Error bad_input for a weight of the journey without its start.
+  void apply(PlanRequest& request) const;
+};
+
+// The descriptions point into what they describe.
+
+FieldGroup fields_of(ViewOptions& options);
+FieldGroup fields_of(ServoOptions& servo);
+FieldGroup fields_of(PolishOptions& polish);
+FieldGroup fields_of(MeshOptions& mesh);
+FieldGroup fields_of(ViewSequenceOptions& views);
+
+}  // namespace vantage
