@@ -91,7 +91,7 @@ PlanWorld load_plan_world(const fs::path& dataset, const std::vector<int>& image
                           const StopToken& stop) {
   SceneReconstructionOptions options = options_of(source.how);
   const BopScene scene = load_dataset(dataset, workcell, images, options.observe);
-  PlanWorld plan{{}, source.objects, scene.files, {}, scene.images.front().intrinsics};
+  PlanWorld plan{{}, source.objects, scene.files, scene.warnings, scene.images.front().intrinsics};
   if (plan.objects.empty()) plan.objects = usual_source(scene, workcell);
   plan.world.static_structures = known(workcell.static_structures);
   if (plan.objects == "given") {

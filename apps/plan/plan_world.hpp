@@ -25,7 +25,7 @@ struct PlanWorld {
   WorldModel world;
   std::string objects;                       ///< "given", a method's name, or the file
   std::vector<std::filesystem::path> files;  ///< that were read for it, beside the workcell's
-  std::vector<std::string> warnings;         ///< cameras that could not be located
+  std::vector<std::string> warnings;         ///< odd images, cameras that could not be located
   Intrinsics first_camera;
 };
 

@@ -33,7 +33,7 @@ def check(what, found, expected, tolerance=1e-9):
         differences.append(f"{what}: found {found.tolist()}, expected {expected.tolist()}")
 
 
-def check_volumes(plan, labels, unseen):
+def check_volumes(plan, labels, unmeasured, unseen):
     voxel_m3 = plan["voxel_size_m"] ** 3
     volumes = plan["volumes_m3"]
     counts = np.bincount(labels.ravel(), minlength=4)
@@ -43,7 +43,9 @@ def check_volumes(plan, labels, unseen):
     check("occupied", counts[OCCUPIED] * voxel_m3, volumes["occupied"])
     check("shadow", (counts[SHADOW] + counts[REVEALED]) * voxel_m3, volumes["shadow"])
     check("unseen", unseen.sum() * voxel_m3, volumes["shadow_unseen"])
-    check("hidden", volumes["shadow"] - volumes["shadow_unseen"], volumes["shadow_hidden"])
+    check("unmeasured", unmeasured.sum() * voxel_m3, volumes["shadow_unmeasured"])
+    check("hidden", volumes["shadow"] - volumes["shadow_unmeasured"] - volumes["shadow_outside"],
+          volumes["shadow_hidden"])
     check("revealed", counts[REVEALED] * voxel_m3, plan["best"]["newly_observed_volume_m3"])
 
 
@@ -121,9 +123,13 @@ def main(folder):
     unseen, measured = np.zeros(labels.shape, bool), np.zeros(labels.shape, bool)
     vdb.read(str(path), "unseen").copyToArray(unseen)
     vdb.read(str(path), "measured").copyToArray(measured)
+    unmeasured = np.zeros(labels.shape, bool)
+    vdb.read(str(path), "unmeasured").copyToArray(unmeasured)
+    check("voxels with two causes", (unmeasured & unseen).sum(), 0)
+    check_grid(path, "unmeasured", unmeasured & (labels >= SHADOW), plan)
     check_grid(path, "unseen", unseen & (labels >= SHADOW), plan)
     check_grid(path, "measured", measured & (labels == OCCUPIED), plan)
-    check_volumes(plan, labels, unseen)
+    check_volumes(plan, labels, unmeasured, unseen)
     check_regions(plan, regions, labels, unseen)
     stays = (labels == SHADOW).sum() * plan["voxel_size_m"] ** 3
     check("shadow.ply", enclosed_volume(folder / "shadow.ply"), stays, 1e-4)

@@ -81,7 +81,8 @@ TEST_CASE("vantage plan looks behind what stands in a depth image") {
   CHECK(plan["best"]["T_world_cam"]["translation_m"][1].get<double>() > 0.3);
   CHECK(plan["inputs"].size() == 2);
   const nlohmann::json& volumes = plan["volumes_m3"];
-  CHECK(volumes["shadow_hidden"].get<double>() + volumes["shadow_unseen"].get<double>() ==
+  CHECK(volumes["shadow_hidden"].get<double>() + volumes["shadow_unmeasured"].get<double>() +
+            volumes["shadow_outside"].get<double>() ==
         doctest::Approx(volumes["shadow"].get<double>()).scale(0));
   CHECK(plan["anti_alias"]["applied"] == false);
   // The box's shadow is by far the largest; it lies behind the box.

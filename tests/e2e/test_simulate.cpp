@@ -153,8 +153,9 @@ TEST_CASE("what cannot be simulated is refused with the reason, and leaves nothi
   CHECK(folded.exit_code == 3);
   CHECK_FALSE(fs::exists(folder / "data"));
   const auto step = simulate("duck", folder / "data", "--disparity-step-px -1");
-  CHECK(step.exit_code == 3);
-  CHECK(step.err.find("depth sensor.disparity_step_px: found -1") != std::string::npos);
+  CHECK(step.exit_code == 2);
+  CHECK(step.err.find("--disparity-step-px: found '-1'; expected a number, 0 or above") !=
+        std::string::npos);
   CHECK_FALSE(fs::exists(folder / "data"));
   CHECK(simulate("duck", folder / "data", "--ideal-depth --border-px 4").exit_code == 2);
 

@@ -78,7 +78,7 @@ bool PlainClassifier::holds_measured_point(const DepthCamera& observer,
     for (int u = 0; u < observer.depth->width(); ++u) {
       const double d = double(observer.depth->at(u, v));
       const DepthRange& range = observer.camera.range();
-      if (!(d >= range.near_m && d <= range.far_m)) continue;
+      if (!(d >= range.near_m && d <= range.far_m)) continue;  // beyond it there is no surface
       const Eigen::Vector3d p = observer.camera.unproject(u, v, d);
       const Eigen::Array3d inside = (p - low).cwiseMin(high - p).array();  // >= 0 within
       if (inside.minCoeff() > -1e-9) {
@@ -94,7 +94,7 @@ PlainClassifier::Says PlainClassifier::compare_with_depth(const DepthCamera& obs
                                                           const Eigen::Vector3i& voxel,
                                                           bool& close_call) const {
   const Eigen::Vector3d centre = geometry_.centre(voxel);
-  if (!plain_in_view(observer.camera, centre, close_call)) return Says::nothing;
+  if (!plain_in_view(observer.camera, centre, close_call)) return Says::outside;
   if (holds_measured_point(observer, voxel, close_call)) return Says::surface;
   const ImagePoint p = *observer.camera.project(centre);
   close_call |=
@@ -104,12 +104,12 @@ PlainClassifier::Says PlainClassifier::compare_with_depth(const DepthCamera& obs
   const int v = std::min(int(std::floor(p.v + 0.5)), k.height - 1);
   const double d = double(observer.depth->at(u, v));
   const DepthRange& range = observer.camera.range();
-  if (!(d >= range.near_m && d <= range.far_m)) return Says::nothing;
+  if (!(d >= range.near_m)) return Says::unmeasured;
   const double band =
       std::max(geometry_.voxel_size_m(), options_.band_sigmas * options_.noise.sigma_m(d));
   close_call |= near(std::abs(p.depth - d), band / 2, kCloseCall);
-  if (std::abs(p.depth - d) <= band / 2) return Says::surface;
-  return p.depth < d ? Says::free : Says::nothing;
+  if (std::abs(p.depth - d) <= band / 2) return d <= range.far_m ? Says::surface : Says::hidden;
+  return p.depth < d ? Says::free : Says::hidden;
 }
 
 bool PlainClassifier::sees_through(const DepthCamera& observer, const Eigen::Vector3i& voxel,
@@ -122,13 +122,15 @@ PlainClassifier::Says PlainClassifier::ask(const DepthCamera& observer,
   const Eigen::Vector3d centre = geometry_.centre(voxel);
   if (observer.depth != nullptr) {
     const Says says = compare_with_depth(observer, voxel, close_call);
-    if (says != Says::free) return says;
-  } else if (!plain_in_view(observer.camera, centre, close_call)) {
-    return Says::nothing;
+    if (says != Says::free && says != Says::unmeasured) return says;
+    const Verdict verdict = hidden(observer.camera, centre);
+    close_call |= verdict.close_call;
+    return verdict.hit ? Says::hidden : says;
   }
+  if (!plain_in_view(observer.camera, centre, close_call)) return Says::outside;
   const Verdict verdict = hidden(observer.camera, centre);
   close_call |= verdict.close_call;
-  return verdict.hit ? Says::nothing : Says::free;
+  return verdict.hit ? Says::hidden : Says::free;
 }
 
 PlainState PlainClassifier::classify(const Eigen::Vector3i& voxel) const {
@@ -137,13 +139,19 @@ PlainState PlainClassifier::classify(const Eigen::Vector3i& voxel) const {
     result.state = VoxelState::occupied;
     return result;
   }
+  result.cause = ShadowCause::outside;
   for (const DepthCamera& observer : world_.cameras) {
     const Says says = ask(observer, voxel, result.close_call);
     if (says == Says::free) result.state = VoxelState::free;
     if (says == Says::surface) result.measured = true;
+    if (says == Says::hidden) result.cause = ShadowCause::hidden;
+    if (says == Says::unmeasured && result.cause == ShadowCause::outside) {
+      result.cause = ShadowCause::unmeasured;
+    }
   }
   result.measured = result.measured && result.state != VoxelState::free;
   if (result.measured) result.state = VoxelState::occupied;
+  if (result.state != VoxelState::shadow) result.cause.reset();
   return result;
 }
 

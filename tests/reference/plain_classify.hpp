@@ -13,6 +13,7 @@ namespace vantage::test {
 struct PlainState {
   VoxelState state = VoxelState::shadow;
   bool measured = false;
+  std::optional<ShadowCause> cause = {};  ///< of shadow
   bool close_call = false;
 };
 
@@ -37,7 +38,7 @@ class PlainClassifier {
 
  private:
   bool inside_known(const Eigen::Vector3d& point, bool& close_call) const;
-  enum class Says { nothing, free, surface };
+  enum class Says { outside, hidden, unmeasured, free, surface };
   Says ask(const DepthCamera& observer, const Eigen::Vector3i& voxel, bool& close_call) const;
   Says compare_with_depth(const DepthCamera& observer, const Eigen::Vector3i& voxel,
                           bool& close_call) const;

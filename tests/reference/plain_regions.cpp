@@ -22,14 +22,15 @@ class Search {
   }
 
   ShadowRegion from(const Eigen::Vector3i& start, std::int32_t number) {
-    ShadowRegion region{0, 0, start, start, start, Eigen::Vector3d::Zero()};
+    ShadowRegion region{0, 0, 0, start, start, start, Eigen::Vector3d::Zero()};
     std::deque<Eigen::Vector3i> front{start};
     label(start) = number;
     while (!front.empty()) {
       const Eigen::Vector3i voxel = front.front();
       front.pop_front();
       ++region.voxels;
-      region.unseen_voxels += grid_.unseen(voxel);
+      region.unmeasured_voxels += grid_.shadow_cause(voxel) == ShadowCause::unmeasured;
+      region.outside_voxels += grid_.shadow_cause(voxel) == ShadowCause::outside;
       region.min_voxel = region.min_voxel.cwiseMin(voxel);
       region.max_voxel = region.max_voxel.cwiseMax(voxel);
       region.centroid_m += grid_.geometry().centre(voxel);

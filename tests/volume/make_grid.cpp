@@ -32,12 +32,17 @@ std::shared_ptr<const StateGrid> make_grid(
     const openvdb::Coord place = volume::detail::to_coord(voxel);
     trees[std::size_t(made.state)]->setValueOn(place);
     if (made.measured) impl->measured.setValueOn(place);
-    if (made.unseen) impl->unseen.setValueOn(place);
-    impl->report.unseen_shadow += made.unseen;
+    if (made.state == VoxelState::occupied) return;
+    const bool unmeasured = made.cause == ShadowCause::unmeasured;
+    const bool outside = made.cause == ShadowCause::outside;
+    if (unmeasured) impl->unmeasured.setValueOn(place);
+    if (outside) impl->outside.setValueOn(place);
+    impl->report.unmeasured_shadow += unmeasured;
+    impl->report.outside_shadow += outside;
   });
   if (tiles) {
-    for (auto* tree :
-         {&impl->occupied, &impl->shadow, &impl->revealed, &impl->measured, &impl->unseen}) {
+    for (auto* tree : {&impl->occupied, &impl->shadow, &impl->revealed, &impl->measured,
+                       &impl->unmeasured, &impl->outside}) {
       openvdb::tools::prune(*tree);
     }
   }
@@ -46,7 +51,7 @@ std::shared_ptr<const StateGrid> make_grid(
 
 std::shared_ptr<const StateGrid> shadow_where(const GridGeometry& geometry, const Inside& inside) {
   return make_grid(geometry, [&](const Eigen::Vector3i& voxel) -> MadeVoxel {
-    return {inside(voxel) ? VoxelState::shadow : VoxelState::free, false, false};
+    return {inside(voxel) ? VoxelState::shadow : VoxelState::free};
   });
 }
 
@@ -74,9 +79,8 @@ std::function<MadeVoxel(const Eigen::Vector3i&)> random_voxels(std::uint32_t see
                                       VoxelState::shadow, VoxelState::revealed};
     const bool uniform = block % 3 != 0;
     const VoxelState state = kStates[(uniform ? block >> 8 : own >> 8) % 5];
-    const bool shade = state == VoxelState::shadow || state == VoxelState::revealed;
-    const bool flag = (uniform ? block >> 16 : own >> 16) & 1;
-    return {state, state == VoxelState::occupied && flag, shade && flag};
+    const std::uint32_t more = uniform ? block >> 16 : own >> 16;
+    return {state, state == VoxelState::occupied && (more & 1) != 0, ShadowCause(more % 3)};
   };
 }
 

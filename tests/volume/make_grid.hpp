@@ -12,8 +12,12 @@ namespace vantage::test {
 struct MadeVoxel {
   VoxelState state = VoxelState::free;
   bool measured = false;
-  bool unseen = false;
+  ShadowCause cause = ShadowCause::hidden;  ///< of shadow and revealed voxels
 };
+
+inline ShadowCause outside_if(bool outside) {
+  return outside ? ShadowCause::outside : ShadowCause::hidden;
+}
 
 /// A grid whose voxels `what` decides, without any camera. Uniform blocks are tiles, of 8³ voxels
 /// or larger, unless `tiles` is off.

@@ -8,7 +8,8 @@
 namespace vantage::test {
 
 inline void check_same_report(const VolumeReport& a, const VolumeReport& b) {
-  CHECK(a.unseen_shadow == b.unseen_shadow);
+  CHECK(a.unmeasured_shadow == b.unmeasured_shadow);
+  CHECK(a.outside_shadow == b.outside_shadow);
   CHECK(a.aliased_shadow == b.aliased_shadow);
   CHECK(a.warnings == b.warnings);
   REQUIRE(a.conflicts.size() == b.conflicts.size());
@@ -26,7 +27,7 @@ inline void expect_same_grid(const StateGrid& a, const StateGrid& b) {
   Eigen::Vector3i last = Eigen::Vector3i::Constant(-1);
   for_each_voxel(a.geometry(), [&](const Eigen::Vector3i& voxel) {
     const bool same = a.at(voxel) == b.at(voxel) && a.measured(voxel) == b.measured(voxel) &&
-                      a.unseen(voxel) == b.unseen(voxel);
+                      a.shadow_cause(voxel) == b.shadow_cause(voxel);
     if (!same) ++differences, last = voxel;
   });
   CAPTURE(last.transpose());

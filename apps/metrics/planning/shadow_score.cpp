@@ -40,7 +40,7 @@ TrueShadow::TrueShadow(const StateGrid& truth)
     const VoxelState state = truth.at(voxel);
     const std::size_t at = index(voxel);
     seen[at] = state == VoxelState::free;
-    const bool hidden = state == VoxelState::shadow && !truth.unseen(voxel);
+    const bool hidden = truth.shadow_cause(voxel) == ShadowCause::hidden;
     kinds_[at] = seen[at] ? Kind::seen : hidden ? Kind::hidden : Kind::nothing;
   });
   mark_boundary(seen);

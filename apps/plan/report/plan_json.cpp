@@ -26,7 +26,8 @@ double volume_m3(const Plan& plan, std::uint64_t voxels) {
 Json region_json(const ShadowRegion& region, const GridGeometry& geometry) {
   const double voxel_m3 = geometry.voxel_volume_m3();
   return {{"volume_m3", double(region.voxels) * voxel_m3},
-          {"unseen_m3", double(region.unseen_voxels) * voxel_m3},
+          {"unmeasured_m3", double(region.unmeasured_voxels) * voxel_m3},
+          {"unseen_m3", double(region.outside_voxels) * voxel_m3},
           {"centroid_m", to_json(region.centroid_m)},
           {"min_m", to_json(geometry.corner(region.min_voxel))},
           {"max_m", to_json(geometry.corner(region.max_voxel + Eigen::Vector3i::Ones()))}};
@@ -37,13 +38,17 @@ Json region_json(const ShadowRegion& region, const GridGeometry& geometry) {
 Json volumes_json(const Plan& plan) {
   if (plan.classified == nullptr) return nullptr;
   const StateGrid& grid = *plan.classified;
-  const std::uint64_t shadow = grid.count(VoxelState::shadow), unseen = grid.report().unseen_shadow;
+  const std::uint64_t unmeasured = grid.report().unmeasured_shadow;
+  const std::uint64_t outside = grid.report().outside_shadow;
+  const std::uint64_t hidden = grid.count(VoxelState::shadow) - unmeasured - outside;
   return {{"work_area", grid.geometry().volume_m3()},
           {"occupied", grid.volume_m3(VoxelState::occupied)},
           {"free", grid.volume_m3(VoxelState::free)},
           {"shadow", grid.volume_m3(VoxelState::shadow)},
-          {"shadow_hidden", volume_m3(plan, shadow - unseen)},
-          {"shadow_unseen", volume_m3(plan, unseen)}};
+          {"shadow_hidden", volume_m3(plan, hidden)},
+          {"shadow_unmeasured", volume_m3(plan, unmeasured)},
+          {"shadow_outside", volume_m3(plan, outside)},
+          {"shadow_unseen", volume_m3(plan, outside)}};
 }
 
 Json anti_alias_json(const Plan& plan) {
@@ -72,8 +77,11 @@ Json regions_json(const ShadowRegions* regions) {
   return {{"count", regions->list().size()}, {"largest", largest}};
 }
 
-Json warnings_json(const Plan& plan) {
-  return plan.classified == nullptr ? Json::array() : Json(plan.classified->report().warnings);
+Json warnings_json(const Plan& plan, const std::vector<std::string>& of_input) {
+  Json warnings = of_input;
+  if (plan.classified == nullptr) return warnings;
+  for (const std::string& warning : plan.classified->report().warnings) warnings.push_back(warning);
+  return warnings;
 }
 
 Json plan_to_json(const Plan& plan, const ShadowRegions* regions,
@@ -94,7 +102,7 @@ Json plan_to_json(const Plan& plan, const ShadowRegions* regions,
           {"anti_alias", anti_alias_json(plan)},
           {"conflicts", conflicts_json(plan)},
           {"shadow_regions", regions_json(regions)},
-          {"warnings", warnings_json(plan)},
+          {"warnings", warnings_json(plan, record.warnings)},
           {"voxel_size_m", plan.request.voxel_size_m},
           {"timing_ms",
            {{"load", milliseconds(record.load_s)},

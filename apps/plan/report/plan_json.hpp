@@ -16,7 +16,8 @@ nlohmann::ordered_json volumes_json(const Plan& plan);
 nlohmann::ordered_json anti_alias_json(const Plan& plan);
 nlohmann::ordered_json conflicts_json(const Plan& plan);
 nlohmann::ordered_json regions_json(const ShadowRegions* regions);
-nlohmann::ordered_json warnings_json(const Plan& plan);
+/// @param of_input what was noticed while the inputs were read.
+nlohmann::ordered_json warnings_json(const Plan& plan, const std::vector<std::string>& of_input);
 
 /// What plan.json says beside the plan itself.
 struct PlanRecord {
@@ -24,6 +25,7 @@ struct PlanRecord {
   double total_s = 0;
   std::vector<std::filesystem::path> inputs;  ///< every file that was read
   nlohmann::ordered_json config;              ///< every setting of the run
+  std::vector<std::string> warnings = {};     ///< noticed while the inputs were read
 };
 
 /// plan.json as assets/schema/plan.schema.json describes it.

@@ -97,11 +97,14 @@ std::string no_view_summary(const Plan& plan) {
 
 std::string shadow_summary(const StateGrid& grid, const ShadowRegions& regions) {
   const double voxel_m3 = grid.geometry().voxel_volume_m3();
-  const std::uint64_t unseen = grid.report().unseen_shadow;
+  const std::uint64_t unmeasured = grid.report().unmeasured_shadow;
+  const std::uint64_t outside = grid.report().outside_shadow;
   std::string text = fmt::format(
-      "shadow     {:.6f} m³ hidden, {:.6f} m³ that no image covers; {} {}",
-      double(grid.count(VoxelState::shadow) - unseen) * voxel_m3, double(unseen) * voxel_m3,
-      regions.list().size(), regions.list().size() == 1 ? "region" : "regions");
+      "shadow     {:.6f} m³ hidden, {:.6f} m³ without a reading, {:.6f} m³ outside all images; {} "
+      "{}",
+      double(grid.count(VoxelState::shadow) - unmeasured - outside) * voxel_m3,
+      double(unmeasured) * voxel_m3, double(outside) * voxel_m3, regions.list().size(),
+      regions.list().size() == 1 ? "region" : "regions");
   if (regions.list().size() > 1) {
     const ShadowRegion& largest = regions.list().front();
     text += fmt::format(", the largest {:.6f} m³ around [{:.3f}, {:.3f}, {:.3f}] m",

@@ -68,7 +68,10 @@ DepthImage DepthImage::from_counts(const RawDepthImage& counts, double depth_sca
   }
   const double scale_m = depth_scale_mm / 1000;
   std::vector<float> metres(counts.samples.size());
-  for (std::size_t i = 0; i < metres.size(); ++i) metres[i] = float(counts.samples[i] * scale_m);
+  for (std::size_t i = 0; i < metres.size(); ++i) {
+    const std::uint16_t count = counts.samples[i];
+    metres[i] = count == kSaturatedCount ? kUnknown : float(count * scale_m);
+  }
   return {counts.width, counts.height, std::move(metres), where};
 }
 

@@ -28,6 +28,8 @@ using reconstruction::detail::ImageSize;
 
 using Entries = std::map<int, Entry>;
 
+constexpr double kNotableSaturation = 0.001;  ///< share of an image's pixels
+
 Entries entries_by_id(const fs::path& file, const json& root) {
   if (!root.is_object() || root.empty()) {
     throw bad_input(file.string(), fmt::format("found {}; expected an object with one entry per "
@@ -161,8 +163,21 @@ class Loader {
     const RawDepthImage counts = read_png_counts(file);
     scene_.files.push_back(file);
     vote.add({counts.width, counts.height}, file.string());
+    warn_of_saturation(counts, file);
     return std::make_shared<const DepthImage>(
         DepthImage::from_counts(counts, depth_scale_mm, file.string()));
+  }
+
+  /// A few such pixels are usual; more of them are a surface that is too near or too bright, or a
+  /// program that writes "unknown" so.
+  void warn_of_saturation(const RawDepthImage& counts, const fs::path& file) {
+    const auto saturated = std::ranges::count(counts.samples, DepthImage::kSaturatedCount);
+    const double share = double(saturated) / double(counts.samples.size());
+    if (share < kNotableSaturation) return;
+    scene_.warnings.push_back(fmt::format(
+        "{}: {:.1f} % of the pixels have the value {}, which is taken as \"no reading\": "
+        "the volume behind them is neither free nor occupied",
+        file.string(), 100 * share, DepthImage::kSaturatedCount));
   }
 
   fs::path find_color(int id, SizeVote& vote) {

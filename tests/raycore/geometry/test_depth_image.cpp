@@ -31,12 +31,14 @@ TEST_CASE("zero, infinity and NaN are unknown, row by row") {
 
 TEST_CASE("raw counts times the scale are millimetres") {
   RawDepthImage counts(2, 2);
-  counts.samples = {0, 1, 1000, 65535};
+  counts.samples = {0, 1, 1000, 65534};
   const DepthImage depth = DepthImage::from_counts(counts, 0.1);
   CHECK(std::isnan(depth.at(0, 0)));
   CHECK(depth.at(1, 0) == doctest::Approx(1e-4));
   CHECK(depth.at(0, 1) == doctest::Approx(0.1));
-  CHECK(depth.at(1, 1) == doctest::Approx(6.5535));
+  CHECK(depth.at(1, 1) == doctest::Approx(6.5534));
+  counts.samples[3] = 65535;  // saturated
+  CHECK(std::isnan(DepthImage::from_counts(counts, 0.1).at(1, 1)));
 }
 
 TEST_CASE("a scale so large or small that depths overflow or vanish leaves them unknown") {

@@ -91,7 +91,8 @@ void tally_up(const StateGrid& grid, std::span<const VisibilityMesh> lattices,
                                 : seen.seen ? VoxelState::free
                                             : VoxelState::shadow;
     const bool unseen = expected == VoxelState::shadow && !covered.seen;
-    tally.differences += grid.at(voxel) != expected || grid.unseen(voxel) != unseen;
+    tally.differences +=
+        grid.at(voxel) != expected || (grid.shadow_cause(voxel) == ShadowCause::outside) != unseen;
     tally.free += expected == VoxelState::free;
     tally.shadow += expected == VoxelState::shadow;
     tally.unseen += unseen;
@@ -188,7 +189,7 @@ TEST_CASE("without lattices everything is shadow that nobody saw") {
   const GridGeometry geometry = GridGeometry::covering(test::random_workcell_area(), 0.013);
   const auto grid = carve({}, geometry, {});
   CHECK(grid->count(VoxelState::shadow) == geometry.voxel_count());
-  CHECK(grid->report().unseen_shadow == geometry.voxel_count());
+  CHECK(grid->report().outside_shadow == geometry.voxel_count());
 }
 
 TEST_CASE("what a lattice sees through a known object is reported as a conflict") {

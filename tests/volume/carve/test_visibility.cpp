@@ -237,9 +237,21 @@ TEST_CASE("nothing is filled in out of reach, and without a measurement there is
   };
   CHECK_FALSE(visibility_lattice(uniform(double(kUnknown)), kArea, {}));
   CHECK_FALSE(visibility_lattice(uniform(0), kArea, {}));
-  CHECK_FALSE(visibility_lattice(uniform(5), kArea, {}));  // out of the sensor's range
-  CHECK_FALSE(visibility_lattice(uniform(0.05), kArea, {}));
+  CHECK_FALSE(visibility_lattice(uniform(0.05), kArea, {}));  // too near to be measured
   CHECK(visibility_lattice(uniform(0.5), kArea, {}));
+}
+
+TEST_CASE("what is measured beyond the far limit was seen through up to there") {
+  const double far = kNear.range().far_m;
+  auto options = options_of(1);
+  options.noise.subpixel_px = 0;
+  for (const double depth : {far, far + 0.01, 2 * far, 60.0}) {
+    CAPTURE(depth);
+    const auto mesh =
+        visibility_lattice(image_of(kNear, [=](int, int) { return depth; }), kArea, options);
+    REQUIRE(mesh);
+    for (const float z : mesh->depth) CHECK(z == doctest::Approx(far));
+  }
 }
 
 TEST_CASE("a mesh frees no space out of reach of what was measured") {

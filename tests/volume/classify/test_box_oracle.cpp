@@ -33,7 +33,7 @@ void compare_with_oracle(const test::BoxWorld& world, int every, OracleTally& ta
     CAPTURE(voxel.transpose());
     REQUIRE(grid->at(voxel) == expected.state);
     const bool unseen = expected.unseen && expected.state == VoxelState::shadow;
-    REQUIRE(grid->unseen(voxel) == unseen);
+    REQUIRE((grid->shadow_cause(voxel) == ShadowCause::outside) == unseen);
     tally.unseen += std::size_t(unseen);
   });
 }

@@ -29,6 +29,7 @@ GridGeometry cube_grid() {
 TEST_CASE("classify equals the plain algorithm on random workcells") {
   std::size_t compared = 0, close_calls = 0;
   std::array<std::size_t, 4> seen{};
+  std::array<std::size_t, 3> causes{};
   for (std::uint32_t seed = 0; seed < 16; ++seed) {
     CAPTURE(seed);
     const WorldModel world = test::random_workcell(seed);
@@ -48,6 +49,8 @@ TEST_CASE("classify equals the plain algorithm on random workcells") {
       CAPTURE(voxel.transpose());
       REQUIRE(grid->at(voxel) == expected.state);
       REQUIRE(grid->measured(voxel) == expected.measured);
+      REQUIRE(grid->shadow_cause(voxel) == expected.cause);
+      if (expected.cause) ++causes[std::size_t(*expected.cause)];
     });
   }
   MESSAGE(compared << " voxels compared, " << close_calls << " too close to call");
@@ -55,6 +58,7 @@ TEST_CASE("classify equals the plain algorithm on random workcells") {
   for (const VoxelState state : {VoxelState::free, VoxelState::occupied, VoxelState::shadow}) {
     CHECK(seen[std::size_t(state)] > 500);
   }
+  for (const std::size_t voxels : causes) CHECK(voxels > 100);
 }
 
 TEST_CASE("a camera without depth: free before and beside a box, shadow behind it") {
@@ -86,15 +90,32 @@ TEST_CASE(
   CHECK(grid->at({19, 2, 10}) == VoxelState::shadow);
 }
 
-TEST_CASE("depth out of the sensor's range proves nothing") {
-  for (const float metres : {0.05f, 5.0f}) {
+TEST_CASE("depth nearer than the near limit, or none, proves nothing: the shadow is unmeasured") {
+  for (const float metres : {0.0f, 0.05f, DepthImage::kUnknown}) {
+    CAPTURE(metres);
     WorldModel world;
     world.cameras.push_back(
         {"front", kCamera,
          std::make_shared<DepthImage>(64, 48, std::vector<float>(64 * 48, metres))});
     const auto grid = classify(world, cube_grid());
     CHECK(grid->count(VoxelState::shadow) == grid->geometry().voxel_count());
+    CHECK(grid->report().unmeasured_shadow + grid->report().outside_shadow ==
+          grid->geometry().voxel_count());
+    CHECK(grid->shadow_cause({10, 10, 10}) == ShadowCause::unmeasured);
   }
+}
+
+TEST_CASE("depth beyond the far limit is a reading: free up to there, and no surface") {
+  WorldModel world;
+  const PinholeCamera up_to_the_middle(kCamera.intrinsics(), kCamera.T_world_cam(), {0.1, 0.5});
+  world.cameras.push_back({"front", up_to_the_middle,
+                           std::make_shared<DepthImage>(64, 48, std::vector<float>(64 * 48, 5.f))});
+  const auto grid = classify(world, cube_grid());
+  CHECK(grid->count(VoxelState::occupied) == 0);
+  CHECK(grid->at({10, 2, 10}) == VoxelState::free);
+  CHECK(grid->at({10, 17, 10}) == VoxelState::shadow);
+  CHECK(grid->shadow_cause({10, 17, 10}) == ShadowCause::outside);  // of the depth range
+  CHECK(grid->report().unmeasured_shadow == 0);
 }
 
 TEST_CASE("what one camera sees through is free, whatever another one measured there") {

@@ -67,7 +67,7 @@ Errors errors_at(double voxel_size_m, const VolumeOptions& options) {
     const Eigen::Vector3d low = Eigen::Vector3d(-0.16, -0.16, 0) - voxel_size_m * part;
     const Box area(low, low + Eigen::Vector3d(0.34, 0.34, 0.16));
     const auto grid = classify(model, GridGeometry::covering(area, voxel_size_m), options);
-    REQUIRE(grid->report().unseen_shadow == 0);
+    REQUIRE(grid->report().outside_shadow == 0);
     double shadow = 0, occupied = 0;
     for (const test::TurnedBox& box : world.boxes) {
       shadow += hidden_volume(box, low.z());

@@ -133,12 +133,13 @@ TEST_CASE("three states and nothing else fill the work area in every mode") {
         REQUIRE(int(state) >= 0);
         REQUIRE(int(state) < 3);
         ++counts[std::size_t(state)];
-        unseen += grid->unseen(voxel);
-        stray_marks += grid->unseen(voxel) && state != VoxelState::shadow;
+        unseen += (grid->shadow_cause(voxel) == ShadowCause::outside);
+        stray_marks +=
+            (grid->shadow_cause(voxel) == ShadowCause::outside) && state != VoxelState::shadow;
         stray_marks += grid->measured(voxel) && state != VoxelState::occupied;
       });
       CHECK(stray_marks == 0);
-      CHECK(grid->report().unseen_shadow == unseen);
+      CHECK(grid->report().outside_shadow == unseen);
       for (int s = 0; s < 4; ++s) CHECK(grid->count(VoxelState(s)) == counts[std::size_t(s)]);
       CHECK(counts[0] + counts[1] + counts[2] == grid->geometry().voxel_count());
       CHECK(grid->centres(VoxelState::shadow).size() == counts[2]);

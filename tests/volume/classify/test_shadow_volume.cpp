@@ -82,7 +82,7 @@ TEST_CASE("a volume without cameras is all unseen shadow but for what is known")
   const auto grid = ShadowVolume(world, test::small_grid()).grid();
   CHECK(grid->count(VoxelState::free) == 0);
   CHECK(grid->count(VoxelState::occupied) > 0);
-  CHECK(grid->report().unseen_shadow == grid->count(VoxelState::shadow));
+  CHECK(grid->report().outside_shadow == grid->count(VoxelState::shadow));
 }
 
 TEST_CASE("a volume refuses images and cameras that do not fit, and stays as it was") {

@@ -28,7 +28,7 @@ void compare(const StateGrid& grid, const test::ThesisVolume& thesis, TwinTally&
     tally.unseen += std::size_t(thesis.unseen[i]);
     CAPTURE(voxel.transpose());
     REQUIRE(grid.at(voxel) == thesis.labels[i]);
-    REQUIRE(grid.unseen(voxel) == bool(thesis.unseen[i]));
+    REQUIRE((grid.shadow_cause(voxel) == ShadowCause::outside) == bool(thesis.unseen[i]));
   });
   ++tally.scenes;
 }
@@ -118,7 +118,9 @@ TEST_CASE("anti-aliasing does in both modes what the thesis prints, and says how
         CAPTURE(voxel.transpose());
         const VoxelState state = expected.labels[expected.index(voxel)];
         REQUIRE(smooth->at(voxel) == state);
-        REQUIRE(smooth->unseen(voxel) == (plain->unseen(voxel) && state == VoxelState::shadow));
+        REQUIRE(
+            (smooth->shadow_cause(voxel) == ShadowCause::outside) ==
+            ((plain->shadow_cause(voxel) == ShadowCause::outside) && state == VoxelState::shadow));
       });
       const std::uint64_t removed =
           plain->count(VoxelState::shadow) - expected.count(VoxelState::shadow);

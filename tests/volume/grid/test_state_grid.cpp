@@ -23,6 +23,11 @@ bool same_points(const Points& a, const Points& b) {
   return a.x == b.x && a.y == b.y && a.z == b.z;
 }
 
+std::optional<ShadowCause> cause_of(const test::MadeVoxel& made) {
+  const bool dark = made.state == VoxelState::shadow || made.state == VoxelState::revealed;
+  return dark ? std::optional(made.cause) : std::nullopt;
+}
+
 }  // namespace
 
 TEST_CASE("a grid tells what was put in, leaf or tile, and free outside") {
@@ -35,7 +40,7 @@ TEST_CASE("a grid tells what was put in, leaf or tile, and free outside") {
       const test::MadeVoxel made = random_voxels(1)(voxel);
       ++counts[made.state];
       same &= grid->at(voxel) == made.state && grid->measured(voxel) == made.measured &&
-              grid->unseen(voxel) == made.unseen;
+              grid->shadow_cause(voxel) == cause_of(made);
     });
     CHECK(same);
     for (const VoxelState state : kAllStates) {
@@ -73,7 +78,7 @@ TEST_CASE("the order of centres depends neither on tiles nor on threads") {
   // Large enough for tiles of 128³ voxels in a slab that is all shadow.
   const GridGeometry geometry = geometry_of(150, 140, 136);
   const auto slab = [](const Eigen::Vector3i& voxel) -> test::MadeVoxel {
-    if (voxel.x() < 130) return {VoxelState::shadow, false, false};
+    if (voxel.x() < 130) return {VoxelState::shadow};
     return random_voxels(3)(voxel);
   };
   const auto leaves = make_grid(geometry, slab, false), tiles = make_grid(geometry, slab, true);
@@ -105,7 +110,7 @@ TEST_CASE("revealing turns the named shadow voxels, and only those, in a new gri
     ++counts[std::size_t(after->at(voxel))];
     const test::MadeVoxel made = random_voxels(4)(voxel);
     CHECK(grid->at(voxel) == made.state);
-    CHECK(after->unseen(voxel) == made.unseen);
+    CHECK(after->shadow_cause(voxel) == cause_of(made));
     CHECK(after->measured(voxel) == made.measured);
     if (made.state != VoxelState::shadow) CHECK(after->at(voxel) == made.state);
   });
@@ -114,7 +119,8 @@ TEST_CASE("revealing turns the named shadow voxels, and only those, in a new gri
     CHECK(after->centres(state).size() == counts[std::size_t(state)]);
   }
   CHECK(after->count(VoxelState::revealed) == grid->count(VoxelState::revealed) + turned);
-  CHECK(after->report().unseen_shadow == grid->report().unseen_shadow);
+  CHECK(after->report().unmeasured_shadow == grid->report().unmeasured_shadow);
+  CHECK(after->report().outside_shadow == grid->report().outside_shadow);
   seen.pop_back();
   test::expect_bad_input("revealed voxels", "flags", [&] { grid->with_revealed(seen); });
 }

@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 /// Larger than a tile of 128³ voxels, and no multiple of a block.
 std::shared_ptr<const StateGrid> some_grid() {
   return test::make_grid(test::geometry_of(141, 133, 130), [](const Eigen::Vector3i& v) {
-    if (v.x() < 130) return test::MadeVoxel{VoxelState::shadow, false, v.y() < 70};
+    if (v.x() < 130) return test::MadeVoxel{VoxelState::shadow, false, test::outside_if(v.y() < 70)};
     return test::random_voxels(8)(v);
   });
 }
@@ -108,14 +108,16 @@ TEST_CASE("grid.vdb holds the states, as numbers and as sets, and stays sparse")
   openvdb::initialize();
   openvdb::io::File file((folder / "grid.vdb").string());
   file.open();
-  CHECK(file.getGrids()->size() == 6);
+  CHECK(file.getGrids()->size() == 7);
   const auto states = read_grid<openvdb::Int32Grid>(file, "state");
   const std::pair<const char*, std::function<bool(const Eigen::Vector3i&)>> sets[] = {
       {"occupied", [&](const auto& v) { return grid->at(v) == VoxelState::occupied; }},
       {"shadow", [&](const auto& v) { return grid->at(v) == VoxelState::shadow; }},
       {"revealed", [&](const auto& v) { return grid->at(v) == VoxelState::revealed; }},
       {"measured", [&](const auto& v) { return grid->measured(v); }},
-      {"unseen", [&](const auto& v) { return grid->unseen(v); }}};
+      {"unmeasured",
+       [&](const auto& v) { return grid->shadow_cause(v) == ShadowCause::unmeasured; }},
+      {"unseen", [&](const auto& v) { return grid->shadow_cause(v) == ShadowCause::outside; }}};
   const Eigen::Vector3i n = grid->geometry().size();
   const openvdb::CoordBBox around({-1, -1, -1}, {n.x(), n.y(), n.z()});
   std::size_t wrong = 0;

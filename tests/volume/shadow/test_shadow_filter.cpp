@@ -39,25 +39,27 @@ bool fits(const StateGrid& grid, const Eigen::Vector3i& voxel, int radius) {
 /// Checks every voxel of a filtered grid against `stays`, and what the grid says of itself.
 template <class Stays>
 void expect_filtered(const StateGrid& before, const StateGrid& after, const Stays& stays) {
-  std::size_t differences = 0, shadow = 0, unseen_shadow = 0;
+  std::size_t differences = 0, shadow = 0, outside_shadow = 0;
   test::for_each_voxel(before.geometry(), [&](const Eigen::Vector3i& voxel) {
     const bool was_shadow = before.at(voxel) == VoxelState::shadow;
     const bool removed = was_shadow && !stays(voxel);
     const VoxelState expected = removed ? VoxelState::free : before.at(voxel);
-    const bool unseen = before.unseen(voxel) && !removed;
-    differences += after.at(voxel) != expected || after.unseen(voxel) != unseen ||
+    const bool unseen = (before.shadow_cause(voxel) == ShadowCause::outside) && !removed;
+    differences += after.at(voxel) != expected ||
+                   (after.shadow_cause(voxel) == ShadowCause::outside) != unseen ||
                    after.measured(voxel) != before.measured(voxel);
     shadow += expected == VoxelState::shadow;
-    unseen_shadow += expected == VoxelState::shadow && unseen;
+    outside_shadow += expected == VoxelState::shadow && unseen;
   });
   CHECK(differences == 0);
   CHECK(after.count(VoxelState::shadow) == shadow);
   CHECK(after.count(VoxelState::free) + shadow ==
         before.count(VoxelState::free) + before.count(VoxelState::shadow));
-  CHECK(before.report().unseen_shadow - after.report().unseen_shadow == [&] {
+  CHECK(before.report().outside_shadow - after.report().outside_shadow == [&] {
     std::uint64_t gone = 0;
     test::for_each_voxel(before.geometry(), [&](const Eigen::Vector3i& voxel) {
-      gone += before.at(voxel) == VoxelState::shadow && before.unseen(voxel) &&
+      gone += before.at(voxel) == VoxelState::shadow &&
+              (before.shadow_cause(voxel) == ShadowCause::outside) &&
               after.at(voxel) == VoxelState::free;
     });
     return gone;
@@ -70,7 +72,7 @@ std::shared_ptr<const StateGrid> mixed_grid() {
   return make_grid(geometry_of(30, 27, 25), [=](const Eigen::Vector3i& v) {
     if (box({2, 2, 0}, {28, 25, 2})(v) || ball({12, 12, 12}, 7)(v) ||
         box({3, 3, 20}, {9, 9, 23})(v))
-      return test::MadeVoxel{VoxelState::shadow, false, v.x() < 12};
+      return test::MadeVoxel{VoxelState::shadow, false, test::outside_if(v.x() < 12)};
     return v.y() > 20 ? noise(v) : test::MadeVoxel{};
   });
 }

@@ -23,7 +23,8 @@ std::vector<std::int32_t> labels_of(const ShadowRegions& regions) {
 
 void check_same(const ShadowRegion& region, const ShadowRegion& expected) {
   CHECK(region.voxels == expected.voxels);
-  CHECK(region.unseen_voxels == expected.unseen_voxels);
+  CHECK(region.unmeasured_voxels == expected.unmeasured_voxels);
+  CHECK(region.outside_voxels == expected.outside_voxels);
   CHECK(region.first_voxel == expected.first_voxel);
   CHECK(region.min_voxel == expected.min_voxel);
   CHECK(region.max_voxel == expected.max_voxel);
@@ -53,14 +54,14 @@ std::size_t compare(const StateGrid& grid) {
 /// Shadow in a share of the voxels, at random; blocks in uniform surroundings are tiles.
 std::shared_ptr<const StateGrid> noise(std::uint32_t seed, std::uint32_t percent) {
   return make_grid(geometry_of(29, 24, 35), [=](const Eigen::Vector3i& v) -> test::MadeVoxel {
-    if (v.x() >= 8 && v.x() < 16) return {VoxelState::shadow, false, v.y() < 9};  // whole blocks
+    if (v.x() >= 8 && v.x() < 16) return {VoxelState::shadow, false, test::outside_if(v.y() < 9)};  // whole blocks
     const Eigen::Vector3i key(v.x() + 64 * int(seed), v.y(), v.z());
     std::uint32_t h = 0;
     for (const int c : {key.x(), key.y(), key.z()}) h = (h ^ std::uint32_t(c)) * 2654435761u;
     h ^= h >> 15;
     h *= 2246822519u;
     const bool shadow = (h >> 12) % 100 < percent;
-    return {shadow ? VoxelState::shadow : VoxelState::occupied, false, shadow && (h >> 7) % 2 == 0};
+    return {shadow ? VoxelState::shadow : VoxelState::occupied, false, ShadowCause((h >> 7) % 3)};
   });
 }
 
@@ -86,7 +87,7 @@ TEST_CASE("voxels hang together through faces only, across blocks too") {
   const auto grid =
       make_grid(geometry_of(16, 16, 16), [&](const Eigen::Vector3i& v) -> test::MadeVoxel {
         const bool shadow = in(v, 1, 1, 1) || in(v, 2, 2, 1) || in(v, 3, 3, 2) || in(v, 3, 3, 3);
-        return {shadow ? VoxelState::shadow : VoxelState::free, false, false};
+        return {shadow ? VoxelState::shadow : VoxelState::free};
       });
   const ShadowRegions regions(*grid);
   REQUIRE(regions.list().size() == 3);
@@ -110,7 +111,7 @@ TEST_CASE("a snake through a block checkerboard is one region") {
   };
   const auto grid =
       make_grid(geometry_of(17, 17, 17), [&](const Eigen::Vector3i& v) -> test::MadeVoxel {
-        return {on_path(v) ? VoxelState::shadow : VoxelState::free, false, true};
+        return {on_path(v) ? VoxelState::shadow : VoxelState::free, false, ShadowCause::outside};
       });
   CHECK(compare(*grid) == 1);
 }
@@ -118,16 +119,16 @@ TEST_CASE("a snake through a block checkerboard is one region") {
 TEST_CASE("large tiles are regions like any other, and revealed voxels belong to none") {
   const GridGeometry geometry = geometry_of(150, 140, 136);
   const auto grid = make_grid(geometry, [](const Eigen::Vector3i& v) -> test::MadeVoxel {
-    if (v.x() == 130) return {VoxelState::revealed, false, false};
-    return {VoxelState::shadow, false, v.x() > 130 && v.z() < 10};
+    if (v.x() == 130) return {VoxelState::revealed};
+    return {VoxelState::shadow, false, test::outside_if(v.x() > 130 && v.z() < 10)};
   });
   const ShadowRegions regions(*grid);
   REQUIRE(regions.list().size() == 2);
   CHECK(regions.list()[0].voxels == 130u * 140 * 136);
-  CHECK(regions.list()[0].unseen_voxels == 0);
+  CHECK(regions.list()[0].outside_voxels == 0);
   CHECK((regions.list()[0].centroid_m - geometry.corner({65, 70, 68})).norm() < 1e-12);
   CHECK(regions.list()[1].voxels == 19u * 140 * 136);
-  CHECK(regions.list()[1].unseen_voxels == 19u * 140 * 10);
+  CHECK(regions.list()[1].outside_voxels == 19u * 140 * 10);
   CHECK(regions.list()[1].min_voxel == Eigen::Vector3i(131, 0, 0));
   CHECK(regions.label({130, 5, 5}) == 0);
 }

@@ -138,7 +138,8 @@ double FilledDepth::inverse(int u, int v) const {
 double FilledDepth::measured(int u, int v) const {
   if (u < 0 || u >= depth_.width() || v < 0 || v >= depth_.height()) return kUnknown;
   const float depth = depth_.at(u, v);
-  return depth >= near_m_ && depth <= far_m_ ? 1 / double(depth) : kUnknown;
+  // What is measured beyond the far limit was seen through up to there.
+  return depth >= near_m_ ? 1 / double(std::min(depth, far_m_)) : kUnknown;
 }
 
 double FilledDepth::filled(int u, int v) const {

@@ -2,6 +2,8 @@
 
 #include <tbb/parallel_for.h>
 
+#include <cmath>
+
 #include "classify/truncation_band.hpp"
 #include "vantage/raycore/detail/box_projector.hpp"
 
@@ -35,11 +37,15 @@ class DepthComparison {
     if (!any) return true;
     const BoxInView box = project(blocks);
     const PixelRect pixels = bands_.pixels_of(box.rect);
-    if (double(bands_.farthest_back(pixels)) < box.z_min) return true;  // behind, or unknown
-    if (!(double(bands_.nearest_front(pixels)) > box.z_max)) return false;
+    const double nearest = double(bands_.nearest_front(pixels));
+    const double farthest = double(bands_.farthest_back(pixels));
+    if (farthest < box.z_min && std::isfinite(nearest)) return true;  // behind, and all are known
+    const bool unknown = std::isinf(farthest) && farthest < 0;
+    if (!unknown && !(nearest > box.z_max)) return false;
+    BlockSet& one_answer = unknown ? evidence_.unknown : evidence_.through;
     blocks.for_each([&](const Eigen::Vector3i& block) {
       const std::size_t index = frame_.layout.index(block);
-      evidence_.through.set(index, covered_.bits(index));
+      one_answer.set(index, covered_.bits(index));
     });
     return true;
   }
@@ -51,13 +57,14 @@ class DepthComparison {
     const std::size_t count = voxels.size();
     float u[kBlockVoxels], v[kBlockVoxels], z[kBlockVoxels];
     camera_.project(voxels.centres(), {u, count}, {v, count}, {z, count});
-    std::uint8_t through[kBlockVoxels], surface[kBlockVoxels];
-    bands_.compare(u, v, z, count, through, surface);
+    std::uint8_t through[kBlockVoxels], surface[kBlockVoxels], unknown[kBlockVoxels];
+    bands_.compare(u, v, z, count, through, surface, unknown);
     // The points in a block were measured at the pixels over it.
     const PixelRect pixels = bands_.pixels_of(project({block, block.array() + 1}).rect);
     const BlockBits measured = bands_.measured_points(index, pixels) & covered;
     evidence_.surface.set(index, voxels.where(surface, 1) | measured);
     evidence_.through.set(index, voxels.where(through, 1) & ~measured);
+    evidence_.unknown.set(index, voxels.where(unknown, 1) & ~measured);
   }
 
   BoxInView project(const CellRange& blocks) const {

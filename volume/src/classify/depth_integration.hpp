@@ -9,12 +9,14 @@
 namespace vantage::volume::detail {
 
 /// What one depth image says of the voxels whose centres are in its view; known objects are left
-/// aside. A voxel in neither set is behind the surface, or its depth is unknown.
+/// aside. A voxel in none of the sets is behind the surface.
 struct DepthEvidence {
   BlockSet through;  ///< in front of the surface band at the nearest pixel: seen through
   BlockSet surface;  ///< in the band, or a measured point lies in the voxel
+  BlockSet unknown;  ///< no depth at the nearest pixel, and no measured point in the voxel
 
-  explicit DepthEvidence(const BlockLayout& layout) : through(layout), surface(layout) {}
+  explicit DepthEvidence(const BlockLayout& layout)
+      : through(layout), surface(layout), unknown(layout) {}
 };
 
 /// Compares the work area with a depth image. Ranges of blocks in front of, or behind, everything

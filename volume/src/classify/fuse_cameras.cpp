@@ -10,12 +10,17 @@ namespace vantage::volume::detail {
 namespace {
 
 /// The voxels of a grid by what became of them. Disjoint but for `measured`, part of `occupied`,
-/// and `unseen`, part of `shadow`.
+/// and `unmeasured` and `outside`, parts of `shadow`.
 struct States {
-  BlockSet occupied, measured, shadow, unseen, conflict;
+  BlockSet occupied, measured, shadow, unmeasured, outside, conflict;
 
   explicit States(const BlockLayout& layout)
-      : occupied(layout), measured(layout), shadow(layout), unseen(layout), conflict(layout) {}
+      : occupied(layout),
+        measured(layout),
+        shadow(layout),
+        unmeasured(layout),
+        outside(layout),
+        conflict(layout) {}
 };
 
 template <class Visit>
@@ -30,16 +35,20 @@ void decide_block(std::size_t block, const KnownObjects& known,
                   std::span<const CameraEvidence> cameras, States& states) {
   const BlockBits inside = states.shadow.layout().inside(block);
   const BlockBits solid = known.solid.bits(block);
-  BlockBits covered, free, surface, through_solid;
+  BlockBits covered, hidden, free, surface, through_solid;
   for (const CameraEvidence& camera : cameras) {
-    covered |= camera.sight.covered.bits(block);
+    const BlockBits in_view = camera.sight.covered.bits(block);
     BlockBits sees = camera.sight.clear.bits(block);
+    covered |= in_view;
+    BlockBits without_answer = sees;  // nothing known is in the way, and nothing measured
     if (camera.depth) {
       const BlockBits through = camera.depth->through.bits(block);
       sees &= through;
       surface |= camera.depth->surface.bits(block);
       through_solid |= through & solid;
+      without_answer &= camera.depth->unknown.bits(block);
     }
+    hidden |= in_view & ~without_answer;
     free |= sees;
   }
   const BlockBits measured = surface & ~solid & ~free;
@@ -47,7 +56,8 @@ void decide_block(std::size_t block, const KnownObjects& known,
   states.occupied.set(block, solid | measured);
   states.measured.set(block, measured);
   states.shadow.set(block, shadow);
-  states.unseen.set(block, shadow & ~covered);
+  states.unmeasured.set(block, shadow & covered & ~hidden);
+  states.outside.set(block, shadow & ~covered);
   states.conflict.set(block, through_solid);
 }
 
@@ -112,16 +122,19 @@ std::shared_ptr<const StateGrid> combine(const GridGeometry& geometry, const Kno
   const BlockSet aliased = find_aliased(states.shadow);
   if (anti_alias) {
     states.shadow = without(states.shadow, aliased);
-    states.unseen = without(states.unseen, aliased);
+    states.unmeasured = without(states.unmeasured, aliased);
+    states.outside = without(states.outside, aliased);
   }
   auto impl = std::make_unique<StateGridImpl>(geometry);
   tbb::parallel_invoke([&] { fill_tree(states.occupied, impl->occupied); },
                        [&] { fill_tree(states.measured, impl->measured); },
                        [&] { fill_tree(states.shadow, impl->shadow); },
-                       [&] { fill_tree(states.unseen, impl->unseen); });
+                       [&] { fill_tree(states.unmeasured, impl->unmeasured); },
+                       [&] { fill_tree(states.outside, impl->outside); });
   const std::uint64_t occupied = count(states.occupied), shadow = count(states.shadow);
   impl->counts = {geometry.voxel_count() - occupied - shadow, occupied, shadow, 0};
-  impl->report.unseen_shadow = count(states.unseen);
+  impl->report.unmeasured_shadow = count(states.unmeasured);
+  impl->report.outside_shadow = count(states.outside);
   impl->report.aliased_shadow = count(aliased);
   impl->report.conflicts = conflicts(known, states.conflict);
   impl->report.warnings = known.warnings;

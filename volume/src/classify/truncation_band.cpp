@@ -13,6 +13,9 @@ namespace {
 
 constexpr int kCell = 4;
 constexpr float kNothing = -std::numeric_limits<float>::infinity();
+/// The back of a band beyond the far limit: what is before its front is free, and there is no
+/// surface.
+constexpr float kBeyondRange = std::numeric_limits<float>::infinity();
 
 /// What the kernels need, in plain arrays.
 struct RowInput {
@@ -32,9 +35,10 @@ struct RowInput {
     const float d = in.depth[u];
     const float noise = in.noise * d * d;
     const float half = noise > in.half_voxel ? noise : in.half_voxel;
-    const bool known = (d >= in.near_m) & (d <= in.far_m);  // NaN is not
+    const bool known = d >= in.near_m;  // NaN is not
+    const bool surface = d <= in.far_m;
     front[u] = known ? d - half : kNothing;
-    back[u] = known ? d + half : kNothing;
+    back[u] = known ? (surface ? d + half : kBeyondRange) : kNothing;
   }
 }
 constexpr Multiversion<bands_body> bands_kernel;
@@ -43,7 +47,7 @@ constexpr Multiversion<bands_body> bands_kernel;
                                                std::int32_t* __restrict block,
                                                std::uint16_t* __restrict offset) {
   for (int u = 0; u < in.width; ++u) {
-    const bool known = back[u] > 0;
+    const bool known = (back[u] > 0) & (back[u] < kBeyondRange);
     const double d = known ? double(in.depth[u]) : 0.0;
     const double x = in.centre[0] + d * (in.row[0] + u * in.column[0]);
     const double y = in.centre[1] + d * (in.row[1] + u * in.column[1]);
@@ -60,7 +64,8 @@ constexpr Multiversion<points_body> points_kernel;
 [[gnu::always_inline]] inline void compare_body(
     const float* __restrict front, const float* __restrict back, int width, int height,
     const float* __restrict u, const float* __restrict v, const float* __restrict depth,
-    std::size_t count, std::uint8_t* __restrict through, std::uint8_t* __restrict surface) {
+    std::size_t count, std::uint8_t* __restrict through, std::uint8_t* __restrict surface,
+    std::uint8_t* __restrict unknown) {
   for (std::size_t i = 0; i < count; ++i) {
     // Points in view are at u, v >= -0.5 but for rounding, which may also lead over the far border:
     // cutting off the fraction is rounding down.
@@ -68,7 +73,9 @@ constexpr Multiversion<points_body> points_kernel;
     const int pixel_v = std::clamp(int(v[i] + 0.5f), 0, height - 1);
     const int pixel = pixel_v * width + pixel_u;
     through[i] = std::uint8_t(depth[i] < front[pixel]);
-    surface[i] = std::uint8_t((depth[i] >= front[pixel]) & (depth[i] <= back[pixel]));
+    surface[i] = std::uint8_t((depth[i] >= front[pixel]) & (depth[i] <= back[pixel]) &
+                              (back[pixel] < kBeyondRange));
+    unknown[i] = std::uint8_t(front[pixel] == kNothing);
   }
 }
 constexpr Multiversion<compare_body> compare_kernel;
@@ -153,9 +160,10 @@ float DepthBands::farthest_back(const PixelRect& p) const {
 }
 
 void DepthBands::compare(const float* u, const float* v, const float* depth, std::size_t count,
-                         std::uint8_t* through, std::uint8_t* surface) const {
-  compare_kernel(front_.data(), back_.data(), width_, height_, u, v, depth, count, through,
-                 surface);
+                         std::uint8_t* through, std::uint8_t* surface,
+                         std::uint8_t* unknown) const {
+  compare_kernel(front_.data(), back_.data(), width_, height_, u, v, depth, count, through, surface,
+                 unknown);
 }
 
 BlockBits DepthBands::measured_points(std::size_t block, const PixelRect& pixels) const {

@@ -28,14 +28,16 @@ class DepthBands {
   PixelRect pixels_of(const ImageRect& rect) const;
 
   /// No more than the smallest front, and no less than the largest back, of the bands over some
-  /// pixels; unknown pixels have both at minus infinity.
+  /// pixels. Unknown pixels have both at minus infinity; those of depths beyond the far limit have
+  /// the back at infinity.
   float nearest_front(const PixelRect& pixels) const;
   float farthest_back(const PixelRect& pixels) const;
 
   /// Sorts N points in view by where they are to the band of their nearest pixel.
-  /// @param through, surface 1 or 0 for each: in front of the band, in the band.
+  /// @param through, surface, unknown 1 or 0 for each: in front of the band, in the band, no depth
+  /// at that pixel.
   void compare(const float* u, const float* v, const float* depth, std::size_t count,
-               std::uint8_t* through, std::uint8_t* surface) const;
+               std::uint8_t* through, std::uint8_t* surface, std::uint8_t* unknown) const;
 
   /// The voxels of a block in which a point was measured, if it was measured in one of `pixels`.
   BlockBits measured_points(std::size_t block, const PixelRect& pixels) const;

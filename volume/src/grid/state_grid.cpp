@@ -76,8 +76,12 @@ bool StateGrid::measured(const Eigen::Vector3i& voxel) const {
   return impl_->measured.isValueOn(volume::detail::to_coord(voxel));
 }
 
-bool StateGrid::unseen(const Eigen::Vector3i& voxel) const {
-  return impl_->unseen.isValueOn(volume::detail::to_coord(voxel));
+std::optional<ShadowCause> StateGrid::shadow_cause(const Eigen::Vector3i& voxel) const {
+  const VoxelState state = at(voxel);
+  if (state != VoxelState::shadow && state != VoxelState::revealed) return std::nullopt;
+  const openvdb::Coord place = volume::detail::to_coord(voxel);
+  if (impl_->outside.isValueOn(place)) return ShadowCause::outside;
+  return impl_->unmeasured.isValueOn(place) ? ShadowCause::unmeasured : ShadowCause::hidden;
 }
 
 std::uint64_t StateGrid::count(VoxelState state) const noexcept {

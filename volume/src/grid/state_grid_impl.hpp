@@ -12,14 +12,16 @@ namespace vantage::volume::detail {
 
 /// The voxels of each kind as sets. Uniform blocks are tiles; an empty part of the grid costs
 /// nothing. Invariant: `occupied`, `shadow` and `revealed` are disjoint; `measured` is part of
-/// `occupied`, `unseen` part of `shadow` and `revealed`; the counts are theirs.
+/// `occupied`, `unmeasured` and `outside` are disjoint parts of `shadow` and `revealed`; the counts
+/// are theirs.
 struct StateGridImpl {
   GridGeometry geometry;
   openvdb::MaskTree occupied{false};
   openvdb::MaskTree shadow{false};
   openvdb::MaskTree revealed{false};
   openvdb::MaskTree measured{false};      ///< occupied because of a depth image
-  openvdb::MaskTree unseen{false};        ///< shadow that no camera's image covers
+  openvdb::MaskTree unmeasured{false};    ///< shadow where images have no reading
+  openvdb::MaskTree outside{false};       ///< shadow that no camera's image covers
   std::array<std::uint64_t, 4> counts{};  ///< by VoxelState
   VolumeReport report;
 

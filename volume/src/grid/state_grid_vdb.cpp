@@ -68,7 +68,8 @@ void StateGrid::write_vdb(const std::filesystem::path& path) const {
                                      volume::detail::bool_grid(impl_->shadow, "shadow"),
                                      volume::detail::bool_grid(impl_->revealed, "revealed"),
                                      volume::detail::bool_grid(impl_->measured, "measured"),
-                                     volume::detail::bool_grid(impl_->unseen, "unseen")};
+                                     volume::detail::bool_grid(impl_->unmeasured, "unmeasured"),
+                                     volume::detail::bool_grid(impl_->outside, "unseen")};
   const auto transform = volume::detail::index_to_centre(geometry());
   for (const openvdb::GridBase::Ptr& grid : grids) grid->setTransform(transform);
   volume::detail::VdbWriter writer;

@@ -23,6 +23,14 @@ namespace {
 namespace tools = openvdb::tools;
 using openvdb::MaskTree;
 
+/// @returns how many voxels that were.
+std::uint64_t take_away(const MaskTree& removed, MaskTree& from) {
+  const std::uint64_t before = from.activeVoxelCount();
+  from.topologyDifference(removed);
+  tools::prune(from);
+  return before - from.activeVoxelCount();
+}
+
 /// The grid with less shadow. @param kept part of the grid's shadow.
 std::shared_ptr<const StateGrid> with_shadow(const StateGrid& grid, const MaskTree& kept) {
   auto impl = std::make_unique<volume::detail::StateGridImpl>(grid.impl());
@@ -33,11 +41,8 @@ std::shared_ptr<const StateGrid> with_shadow(const StateGrid& grid, const MaskTr
   tools::prune(impl->shadow);
   impl->counts[std::size_t(VoxelState::shadow)] -= count;
   impl->counts[std::size_t(VoxelState::free)] += count;
-  MaskTree unseen = removed;
-  unseen.topologyIntersection(impl->unseen);
-  impl->report.unseen_shadow -= unseen.activeVoxelCount();
-  impl->unseen.topologyDifference(removed);
-  tools::prune(impl->unseen);
+  impl->report.unmeasured_shadow -= take_away(removed, impl->unmeasured);
+  impl->report.outside_shadow -= take_away(removed, impl->outside);
   return std::make_shared<const StateGrid>(std::move(impl));
 }
 

@@ -37,14 +37,16 @@ class RegionSums {
   using Integers = Eigen::Matrix<std::uint64_t, 3, 1>;
 
  public:
-  void add(const openvdb::Coord& origin, const BlockWords& words, const BlockWords& unseen) {
+  void add(const openvdb::Coord& origin, const BlockWords& words, const BlockWords& unmeasured,
+           const BlockWords& outside) {
     const std::uint64_t before = voxels_;
     Integers local = Integers::Zero();
     for (std::size_t x = 0; x < 8; ++x) {
       if (words[x] == 0) continue;
       const auto count = std::uint64_t(std::popcount(words[x]));
       voxels_ += count;
-      unseen_ += std::uint64_t(std::popcount(words[x] & unseen[x]));
+      unmeasured_ += std::uint64_t(std::popcount(words[x] & unmeasured[x]));
+      outside_ += std::uint64_t(std::popcount(words[x] & outside[x]));
       local[0] += x * count;
       local[1] += sum_of(words[x], kYHas);
       local[2] += sum_of(words[x], kZHas);
@@ -55,9 +57,13 @@ class RegionSums {
 
   ShadowRegion region(const GridGeometry& geometry) const {
     const Eigen::Vector3d mean = sum_.cast<double>() / double(voxels_);
-    return {voxels_, unseen_,
-            first_,  min_,
-            max_,    geometry.centre(Eigen::Vector3i::Zero()) + geometry.voxel_size_m() * mean};
+    return {voxels_,
+            unmeasured_,
+            outside_,
+            first_,
+            min_,
+            max_,
+            geometry.centre(Eigen::Vector3i::Zero()) + geometry.voxel_size_m() * mean};
   }
 
  private:
@@ -74,7 +80,7 @@ class RegionSums {
   }
 
   static constexpr int kFar = std::numeric_limits<int>::max();
-  std::uint64_t voxels_ = 0, unseen_ = 0;
+  std::uint64_t voxels_ = 0, unmeasured_ = 0, outside_ = 0;
   Integers sum_ = Integers::Zero();  // at most 2^30 voxels and 2^30 along an axis: no overflow
   Eigen::Vector3i first_ = Eigen::Vector3i::Constant(kFar);
   Eigen::Vector3i min_ = Eigen::Vector3i::Constant(kFar);
@@ -105,16 +111,18 @@ struct ShadowRegions::Impl {
   std::vector<std::int32_t> labels;  ///< by component
   std::vector<ShadowRegion> list;
 
-  Impl(const GridGeometry& g, const openvdb::MaskTree& shadow, const openvdb::MaskTree& unseen)
-      : geometry(g), blocks(shadow), labels(blocks.component_count()) {
+  explicit Impl(const StateGrid& grid)
+      : geometry(grid.geometry()), blocks(grid.impl().shadow), labels(blocks.component_count()) {
     std::vector<volume::detail::RegionSums> sums(
         volume::detail::number_sets(blocks.connected(), labels));
-    volume::detail::BlockReader unseen_at(unseen);
+    volume::detail::BlockReader unmeasured_at(grid.impl().unmeasured);
+    volume::detail::BlockReader outside_at(grid.impl().outside);
     for (const volume::detail::ShadowBlock& block : blocks.list()) {
-      const volume::detail::BlockWords unseen_words = unseen_at.words(block.origin);
+      const volume::detail::BlockWords unmeasured = unmeasured_at.words(block.origin);
+      const volume::detail::BlockWords outside = outside_at.words(block.origin);
       const std::int32_t* label = &labels[block.first_component];
       for (const volume::detail::BlockWords& words : block.component_words()) {
-        sums[std::size_t(*label++)].add(block.origin, words, unseen_words);
+        sums[std::size_t(*label++)].add(block.origin, words, unmeasured, outside);
       }
     }
     for (const volume::detail::RegionSums& sum : sums) list.push_back(sum.region(geometry));
@@ -145,9 +153,7 @@ struct ShadowRegions::Impl {
   }
 };
 
-ShadowRegions::ShadowRegions(const StateGrid& grid)
-    : impl_(std::make_unique<const Impl>(grid.geometry(), grid.impl().shadow, grid.impl().unseen)) {
-}
+ShadowRegions::ShadowRegions(const StateGrid& grid) : impl_(std::make_unique<const Impl>(grid)) {}
 ShadowRegions::~ShadowRegions() = default;
 ShadowRegions::ShadowRegions(ShadowRegions&&) noexcept = default;
 ShadowRegions& ShadowRegions::operator=(ShadowRegions&&) noexcept = default;

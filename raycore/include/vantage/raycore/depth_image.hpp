@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <limits>
 #include <memory>
 #include <span>
@@ -25,7 +26,11 @@ class VANTAGE_API DepthImage {
   /// @throws Error bad_input if the count does not fit or a depth is negative.
   DepthImage(int width, int height, std::vector<float> metres, std::string_view where = "depth");
 
-  /// Raw counts times `depth_scale_mm` are millimetres; a count of 0 is unknown.
+  /// The count by which many sensors say that they are saturated or have no reading.
+  static constexpr std::uint16_t kSaturatedCount = 65535;
+
+  /// Raw counts times `depth_scale_mm` are millimetres; counts of 0 and `kSaturatedCount` are
+  /// unknown.
   /// @throws Error bad_input unless `depth_scale_mm` is finite and positive.
   static DepthImage from_counts(const RawDepthImage& counts, double depth_scale_mm,
                                 std::string_view where = "depth");

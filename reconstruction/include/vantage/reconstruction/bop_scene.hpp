@@ -32,6 +32,7 @@ struct BopScene {
   std::filesystem::path folder;
   std::vector<BopImage> images;              ///< ascending by id, never empty
   std::vector<std::filesystem::path> files;  ///< every file that was read
+  std::vector<std::string> warnings = {};    ///< for people; each names the file that it is about
 };
 
 /// Reads `scene_camera.json` and depth/%06d.png; of rgb/%06d.{png,jpg} only the size.

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <span>
 
 #include "vantage/raycore/export.hpp"
@@ -20,6 +21,13 @@ enum class VoxelState : std::int32_t {
   occupied = 1,  ///< inside a known object, or at a measured surface
   shadow = 2,    ///< neither: no camera sees it
   revealed = 3,  ///< shadow that the suggested view would see
+};
+
+/// Why a voxel is in shadow. Of several cameras the first of these that holds for one counts.
+enum class ShadowCause {
+  hidden,      ///< in a camera's view, behind something known or measured
+  unmeasured,  ///< in a camera's view, with nothing known in the way, but no reading at its pixel
+  outside,     ///< outside every camera's image and depth range
 };
 
 namespace volume::detail {
@@ -45,8 +53,8 @@ class VANTAGE_API StateGrid {
   /// inside a known object.
   bool measured(const Eigen::Vector3i& voxel) const;
 
-  /// Whether a shadow (or revealed) voxel is outside every camera's image and depth range.
-  bool unseen(const Eigen::Vector3i& voxel) const;
+  /// Why a shadow (or revealed) voxel is in shadow; nothing for the others.
+  std::optional<ShadowCause> shadow_cause(const Eigen::Vector3i& voxel) const;
 
   std::uint64_t count(VoxelState state) const noexcept;
   double volume_m3(VoxelState state) const {
@@ -60,14 +68,15 @@ class VANTAGE_API StateGrid {
   /// space. The order does not depend on how the grid came about.
   Points centres(VoxelState state) const;
 
-  /// This grid with some of its shadow voxels revealed; unseen ones stay unseen.
+  /// This grid with some of its shadow voxels revealed; these keep their cause.
   /// @param seen 1 or 0 for each of `centres(VoxelState::shadow)`, in that order.
   /// @throws Error bad_input for another number of flags.
   std::shared_ptr<const StateGrid> with_revealed(std::span<const std::uint8_t> seen) const;
 
   /// Writes an OpenVDB file with the int32 grid `state`, and for programs that read no int32 grids
-  /// the bool grids `occupied`, `shadow`, `revealed`, `measured` and `unseen` (true and active in
-  /// their voxels). The transform of all maps an index to the voxel's centre.
+  /// the bool grids `occupied`, `shadow`, `revealed`, `measured`, and by the shadow's cause
+  /// `unmeasured` and `unseen` (which is what is outside all images), true and active in their
+  /// voxels. The transform of all maps an index to the voxel's centre.
   /// @throws Error as `write_file` does.
   void write_vdb(const std::filesystem::path& path) const;
 

@@ -15,9 +15,9 @@ struct ObjectConflict {
 
 /// What a classification found beside the states, in voxels.
 struct VolumeReport {
-  /// Shadow that no camera's image and depth range covers. The other shadow is hidden: some image
-  /// covers it, and something is in the way (or that image's depth is unknown there).
-  std::uint64_t unseen_shadow = 0;
+  /// Shadow by `ShadowCause`; the rest of it is hidden.
+  std::uint64_t unmeasured_shadow = 0;
+  std::uint64_t outside_shadow = 0;
 
   /// Shadow that anti-aliasing removed, or would have removed where it is off.
   std::uint64_t aliased_shadow = 0;

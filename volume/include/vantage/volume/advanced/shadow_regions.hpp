@@ -10,17 +10,18 @@
 
 namespace vantage {
 
-/// Shadow voxels that hang together.
+/// A connected component of shadow voxels.
 struct ShadowRegion {
   std::uint64_t voxels = 0;
-  std::uint64_t unseen_voxels = 0;  ///< of them, those that no camera's image covers
-  Eigen::Vector3i first_voxel;      ///< the one with the lowest i, of these the lowest j, then k
-  Eigen::Vector3i min_voxel;        ///< the bounding box, in voxels
-  Eigen::Vector3i max_voxel;        ///< inclusive
-  Eigen::Vector3d centroid_m;       ///< mean of the voxels' centres, world frame
+  std::uint64_t unmeasured_voxels = 0;  ///< of them, by `ShadowCause`; the rest is hidden
+  std::uint64_t outside_voxels = 0;
+  Eigen::Vector3i first_voxel;  ///< the one with the lowest i, of these the lowest j, then k
+  Eigen::Vector3i min_voxel;    ///< the bounding box, in voxels
+  Eigen::Vector3i max_voxel;    ///< inclusive
+  Eigen::Vector3d centroid_m;   ///< mean of the voxels' centres, world frame
 };
 
-/// The connected regions of a grid's shadow: voxels hang together where they share a face. Revealed
+/// The connected regions of a grid's shadow: voxels are connected where they share a face. Revealed
 /// voxels are not shadow any more.
 ///
 /// Immutable and thread-safe. Memory is proportional to the blocks of 8³ voxels that hold shadow.
