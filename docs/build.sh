@@ -13,6 +13,7 @@ rm -rf "$out/xml"
 sed -i '/<innernamespace /d' "$out"/xml/*_8hpp.xml
 sed -i '/<sectiondef kind="private/,/<\/sectiondef>/d; /<innerclass .*prot="private"/d' \
   "$out"/xml/class*.xml "$out"/xml/struct*.xml
-VANTAGE_DOXYGEN_XML=$out/xml \
+# Sphinx' word to the authors of extensions is not for us.
+PYTHONWARNINGS=ignore VANTAGE_DOXYGEN_XML=$out/xml \
   sphinx-build -W --keep-going -q -b html -d "$out/doctrees" . "$out/html"
 echo "$out/html/index.html"
