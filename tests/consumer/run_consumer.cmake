@@ -1,7 +1,7 @@
 # Installs the build tree, moves the installed tree elsewhere, and builds and runs project/ and
 # apps/examples against it. Proves that the package can be moved, points at neither the build tree nor
-# the sources, shows nothing but Eigen in its headers, and needs none of its own dependencies on a
-# link line.
+# the sources, shows nothing but Eigen in its headers and nothing but vantage in its symbols, and needs
+# none of its own dependencies on a link line.
 
 set(prefix "${work}/prefix")
 set(hidden_dependencies OpenVDB OpenCV TBB embree assimp fmt PNG nlohmann_json)
@@ -68,11 +68,33 @@ function(check_loads_from_prefix program)
   endforeach()
 endfunction()
 
+# The libraries show namespace vantage, and no template of std, Eigen or OpenVDB that they use.
+function(check_symbols)
+  find_program(nm nm REQUIRED)
+  file(GLOB libraries "${prefix}/lib*/libvantage_*.so" "${prefix}/lib/*/libvantage_*.so")
+  if(NOT libraries)
+    message(FATAL_ERROR "no libraries were installed")
+  endif()
+  foreach(library IN LISTS libraries)
+    run(symbols "${nm}" -D --defined-only --demangle --format=posix "${library}")
+    string(REGEX REPLACE "[;\\[]" "_" symbols "${symbols}")  # CMake's lists have no such elements
+    string(STRIP "${symbols}" symbols)
+    string(REGEX REPLACE "\n" ";" symbols "${symbols}")
+    list(FILTER symbols EXCLUDE REGEX
+         "^((typeinfo|typeinfo name|vtable|VTT) for |(non-virtual|virtual) thunk to )?vantage::")
+    if(symbols)
+      list(SUBLIST symbols 0 5 symbols)
+      message(FATAL_ERROR "${library} shows symbols that are not vantage's:\n${symbols}")
+    endif()
+  endforeach()
+endfunction()
+
 file(REMOVE_RECURSE "${work}")
 run(_ "${CMAKE_COMMAND}" --install "${vantage_build}" --prefix "${work}/first-prefix")
 file(RENAME "${work}/first-prefix" "${prefix}")
 check_headers_show_only_eigen()
 check_package_files_can_be_moved()
+check_symbols()
 
 list(TRANSFORM hidden_dependencies REPLACE "(.+)" "-DCMAKE_DISABLE_FIND_PACKAGE_\\1=ON")
 set(configure "${CMAKE_COMMAND}"
