@@ -2,10 +2,11 @@
 # Installs with apt what building vantage needs and this machine lacks.
 # Nothing missing: says nothing, changes nothing, needs no network.
 #
-#   apps/setup.sh [--test] [--bench] [--dev]
+#   apps/setup.sh [--test] [--bench] [--docs] [--dev]
 #
 #   --test    also what tests/ needs beyond that: an independent reader of what vantage writes
 #   --bench   also what tests/bench needs
+#   --docs    also what docs/build.sh needs
 #   --dev     also the formatter and the linters
 set -euo pipefail
 
@@ -22,8 +23,9 @@ for option in "$@"; do
   case $option in
     --test) packages+=(python3-openvdb python3-numpy python3-pil) ;;
     --bench) packages+=(libbenchmark-dev libcgal-dev) ;;
+    --docs) packages+=(doxygen graphviz python3-sphinx python3-breathe python3-myst-parser furo) ;;
     --dev) packages+=(clang-format clang-tidy shellcheck) ;;
-    *) echo "usage: apps/setup.sh [--test] [--bench] [--dev]" >&2; exit 2 ;;
+    *) echo "usage: apps/setup.sh [--test] [--bench] [--docs] [--dev]" >&2; exit 2 ;;
   esac
 done
 

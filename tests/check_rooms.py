@@ -83,6 +83,9 @@ class Rooms:
         return [f"{a} -> {b} is part of a circle: {include}" for (a, b), includes
                 in sorted(self.arrows.items()) if a in reach(b) for include in includes]
 
+    def names(self):
+        return sorted({self.room(path) for path in self.files})
+
     def draw(self):
         """Mermaid; an arrow that others imply is left out."""
         after = collections.defaultdict(set)
@@ -93,10 +96,13 @@ class Rooms:
             return any((c == b and not direct) or reaches(c, b, False) for c in after[a]
                        if not (direct and c == b))
 
+        def node(room):  # the room "." holds main.cpp
+            return f'{room.replace("/", "_")}["{room}"]' if room != "." else 'main["main.cpp"]'
+
         lines = ["```mermaid", "graph TD"]
         for a, b in sorted(self.arrows):
             if not reaches(a, b, True):
-                lines.append(f'  {a.replace("/", "_")}["{a}"] --> {b.replace("/", "_")}["{b}"]')
+                lines.append(f"  {node(a)} --> {node(b)}")
         return "\n".join(lines + ["```"])
 
 

@@ -1,6 +1,7 @@
-# Installs the build tree, moves the installed tree elsewhere, and builds and runs project/ against
-# it. Proves that the package can be moved, points at neither the build tree nor the sources, shows
-# nothing but Eigen in its headers, and needs none of its own dependencies on a link line.
+# Installs the build tree, moves the installed tree elsewhere, and builds and runs project/ and
+# apps/examples against it. Proves that the package can be moved, points at neither the build tree nor
+# the sources, shows nothing but Eigen in its headers and nothing but vantage in its symbols, and needs
+# none of its own dependencies on a link line.
 
 set(prefix "${work}/prefix")
 set(hidden_dependencies OpenVDB OpenCV TBB embree assimp fmt PNG nlohmann_json)
@@ -67,17 +68,41 @@ function(check_loads_from_prefix program)
   endforeach()
 endfunction()
 
+# The libraries show namespace vantage, and no template of std, Eigen or OpenVDB that they use.
+function(check_symbols)
+  find_program(nm nm REQUIRED)
+  file(GLOB libraries "${prefix}/lib*/libvantage_*.so" "${prefix}/lib/*/libvantage_*.so")
+  if(NOT libraries)
+    message(FATAL_ERROR "no libraries were installed")
+  endif()
+  foreach(library IN LISTS libraries)
+    run(symbols "${nm}" -D --defined-only --demangle --format=posix "${library}")
+    string(REGEX REPLACE "[;\\[]" "_" symbols "${symbols}")  # CMake's lists have no such elements
+    string(STRIP "${symbols}" symbols)
+    string(REGEX REPLACE "\n" ";" symbols "${symbols}")
+    list(FILTER symbols EXCLUDE REGEX
+         "^((typeinfo|typeinfo name|vtable|VTT) for |(non-virtual|virtual) thunk to )?vantage::")
+    if(symbols)
+      list(SUBLIST symbols 0 5 symbols)
+      message(FATAL_ERROR "${library} shows symbols that are not vantage's:\n${symbols}")
+    endif()
+  endforeach()
+endfunction()
+
 file(REMOVE_RECURSE "${work}")
 run(_ "${CMAKE_COMMAND}" --install "${vantage_build}" --prefix "${work}/first-prefix")
 file(RENAME "${work}/first-prefix" "${prefix}")
 check_headers_show_only_eigen()
 check_package_files_can_be_moved()
+check_symbols()
 
 list(TRANSFORM hidden_dependencies REPLACE "(.+)" "-DCMAKE_DISABLE_FIND_PACKAGE_\\1=ON")
-run(_ "${CMAKE_COMMAND}" -S "${CMAKE_CURRENT_LIST_DIR}/project" -B "${work}/build"
+set(configure "${CMAKE_COMMAND}"
     -G "${generator}" "-DCMAKE_CXX_COMPILER=${compiler}" "-DCMAKE_PREFIX_PATH=${prefix}"
     -DCMAKE_FIND_USE_PACKAGE_REGISTRY=OFF -DCMAKE_FIND_USE_SYSTEM_PACKAGE_REGISTRY=OFF
-    "-DVANTAGE_EXPECTED_VERSION=${version}" ${hidden_dependencies})
+    ${hidden_dependencies})
+run(_ ${configure} -S "${CMAKE_CURRENT_LIST_DIR}/project" -B "${work}/build"
+    "-DVANTAGE_EXPECTED_VERSION=${version}")
 run(build_output "${CMAKE_COMMAND}" --build "${work}/build" --verbose)
 check_link_line("${build_output}")
 check_loads_from_prefix("${work}/build/consumer")
@@ -86,3 +111,17 @@ run(printed "${work}/build/consumer")
 message("${printed}")
 run(printed "${prefix}/bin/vantage" --version)
 message("${printed}")
+
+file(GLOB examples RELATIVE "${vantage_source}/apps/examples" "${vantage_source}/apps/examples/*.cpp")
+run(_ ${configure} -S "${vantage_source}/apps/examples" -B "${work}/examples"
+    "-DCMAKE_CXX_FLAGS=-Wall -Wextra -Wpedantic -Wshadow -Werror")
+run(build_output "${CMAKE_COMMAND}" --build "${work}/examples" --verbose)
+check_link_line("${build_output}")
+foreach(example IN LISTS examples)
+  string(REPLACE ".cpp" "" example "${example}")
+  run(printed "${work}/examples/${example}")
+  if(printed STREQUAL "")
+    message(FATAL_ERROR "the example ${example} prints nothing")
+  endif()
+  message("${example}: ${printed}")
+endforeach()

@@ -58,7 +58,7 @@ class VANTAGE_API ServoRefiner {
   std::vector<ServoStep> path(const Pose& T_world_cam) const;
 
   /// The same for many candidates that are close to each other, one after the other.
-  /// @param outermost where the last look found the shadow's outermost points, if it did; this
+  /// @param extremes where the last look found the shadow's outermost points, if it did; this
   /// path's last look's afterwards. It spares work, and changes no path.
   std::vector<ServoStep> path(const Pose& T_world_cam,
                               std::optional<ExtremePoints>& extremes) const;

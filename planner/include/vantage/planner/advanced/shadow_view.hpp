@@ -39,8 +39,9 @@ class VANTAGE_API ShadowView {
   /// very image that the servo looks at.
   /// @param expected where a look from close by, if there was one, found the shadow's outermost
   /// points. It may spare work, and changes no bounds.
-  virtual ShadowObservation observe(const PinholeCamera& view,
-                                    const std::optional<ExtremePoints>& /*expected*/) const {
+  virtual ShadowObservation observe(
+      const PinholeCamera& view,
+      [[maybe_unused]] const std::optional<ExtremePoints>& expected) const {
     return {.bounds = shadow_bounds(view)};
   }
 };
