@@ -32,7 +32,7 @@ void add_view_count_options(CLI::App& verb, ViewSequenceOptions& views) {
 
 }  // namespace
 
-void add_mesh_options(CLI::App& verb, MeshOptions& mesh) {
+void add_mesh_options(CLI::App& verb, MeshMethod& mesh) {
   static const std::map<std::string, DepthHoles> holes{{"fill", DepthHoles::fill},
                                                        {"unknown", DepthHoles::unknown}};
   verb.add_option("--mesh-step", mesh.visibility.step_px,
@@ -73,7 +73,7 @@ void add_weight_options(CLI::App& verb, ViewOptions& options) {
                   "Of --method shadow and mesh: pixels count depth^P; 0, 3 and 6 are the thesis' "
                   "D0, D3, D6")
       ->check(number_between(0.0, 16.0))
-      ->default_str(fmt::format("{:g}", options.method.depth_power));
+      ->default_str(fmt::format("{:g}", ShadowMethod().depth_power));
   verb.add_option("--mesh-weight", options.mesh_weight,
                   "Of --method mesh: what unseen pixels count; volume: the volume behind them, by "
                   "which views from different distances compare; depth: depth^P, as in the thesis")
@@ -85,7 +85,7 @@ void add_weight_options(CLI::App& verb, ViewOptions& options) {
 
 void ViewOptions::add_to(CLI::App& verb) {
   verb.add_option(
-          "--method", method.name,
+          "--method", method,
           "What a view is worth; voxel: the volume that it would reveal; shadow: the shadow "
           "on its image, weighted by distance; mesh: the volume that no depth image shows, "
           "whatever stands there; light: unlit surface that it would light, to "
@@ -108,17 +108,25 @@ void ViewOptions::add_to(CLI::App& verb) {
   verb.add_option("--ranked", ranked, "So many of the best are found for certain, in their order")
       ->check(CLI::Range(1, 1000000))
       ->capture_default_str();
-  add_mesh_options(verb, method.mesh);
+  add_mesh_options(verb, mesh);
   add_travel_options(verb, *this);
   add_view_count_options(verb, views);
 }
 
+Method ViewOptions::chosen() const {
+  Method result = method_named(method);
+  if (auto* const shadow = std::get_if<ShadowMethod>(&result)) {
+    shadow->depth_power = depth_power.value_or(shadow->depth_power);
+  } else if (auto* const by_mesh = std::get_if<MeshMethod>(&result)) {
+    *by_mesh = mesh;
+    by_mesh->depth_power = depth_power.value_or(mesh.depth_power);
+    by_mesh->weight = mesh_weight.value_or(depth_power ? MeshWeight::depth : mesh.weight);
+  }
+  return result;
+}
+
 void ViewOptions::apply(PlanRequest& request) const {
-  request.method = method;
-  if (depth_power) request.method.depth_power = *depth_power;
-  request.method.mesh.weight =
-      mesh_weight.value_or(depth_power ? MeshWeight::depth : method.mesh.weight);
-  request.method.mesh.visibility.noise = request.volume.noise;
+  request.method = chosen();
   request.servo = {servo_iterations, servo_width};
   request.polish.views = polished_views;
   request.search.ranked = ranked;

@@ -11,7 +11,8 @@ namespace vantage {
 
 /// How views are scored, refined and chosen: what the command line says of it.
 struct ViewOptions {
-  MethodOptions method;
+  std::string method{VoxelMethod::kName};
+  MeshMethod mesh;                        ///< if that is the method; its weighting is below
   std::optional<double> depth_power;      ///< not given: the default
   std::optional<MeshWeight> mesh_weight;  ///< not given: by depth if its power is
   int servo_iterations = ServoOptions().iterations;
@@ -26,9 +27,12 @@ struct ViewOptions {
 
   /// Puts all of it into a request.
   void apply(PlanRequest& request) const;
+
+ private:
+  Method chosen() const;
 };
 
 /// The options of --method mesh, but for its weight.
-void add_mesh_options(CLI::App& verb, MeshOptions& mesh);
+void add_mesh_options(CLI::App& verb, MeshMethod& mesh);
 
 }  // namespace vantage

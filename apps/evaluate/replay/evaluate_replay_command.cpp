@@ -25,7 +25,7 @@ using Json = nlohmann::ordered_json;
 struct ReplayCommandOptions {
   PlanOptions plan;
   std::vector<std::string> methods{"voxel", "mesh", "meshD6"};
-  MeshOptions mesh;
+  MeshMethod mesh;
   ReplayBenchmarkOptions settings;
   fs::path folder;
   bool json = false;
@@ -36,17 +36,19 @@ ReplayBenchmarkOptions options_of(const ReplayCommandOptions& arguments) {
   ReplayBenchmarkOptions settings = arguments.settings;
   settings.methods = named_methods(arguments.methods);
   for (NamedMethod& method : settings.methods) {
-    const MeshWeight named = method.options.mesh.weight;
-    method.options.mesh = arguments.mesh;
-    method.options.mesh.weight = named;
+    auto* const mesh = std::get_if<MeshMethod>(&method.method);
+    if (mesh == nullptr) continue;
+    const MeshMethod named = *mesh;
+    *mesh = arguments.mesh;
+    mesh->weight = named.weight;
+    mesh->depth_power = named.depth_power;
   }
   return settings;
 }
 
 Json config_json(const ReplayCommandOptions& arguments, const PlanInput& input) {
   PlanRequest request = input.request;
-  request.method = {.name = "mesh", .mesh = arguments.mesh};
-  request.method.mesh.visibility.noise = request.volume.noise;
+  request.method = arguments.mesh;
   const Json all = config_of(request);
   Json config = input.record.config;
   config.update({{"methods", arguments.methods},

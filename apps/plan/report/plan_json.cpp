@@ -83,7 +83,7 @@ using Json = nlohmann::ordered_json;
 Json plan_to_json(const Plan& plan, const ShadowRegions* regions,
                   const std::vector<ViewExplanation>& explained, const PlanRecord& record) {
   return {{"vantage", kVersion},
-          {"method", plan.request.method.name},
+          {"method", name_of(plan.request.method)},
           {"score_unit", plan.score_unit_name.empty() ? Json() : Json(plan.score_unit_name)},
           {"partial", plan.stopped != StopReason::none},
           {"finished_candidates", plan.finished},
@@ -123,21 +123,29 @@ Json camera_json(const PlanRequest& request) {
 
 namespace {
 
+/// For the methods that know no such power: the usual one.
+double depth_power_of(const Method& method) {
+  if (const auto* const shadow = std::get_if<ShadowMethod>(&method)) return shadow->depth_power;
+  if (const auto* const mesh = std::get_if<MeshMethod>(&method)) return mesh->depth_power;
+  return ShadowMethod().depth_power;
+}
+
 /// Null for the methods that it does not concern.
-Json mesh_json(const MethodOptions& method) {
-  if (method.name != "mesh") return nullptr;
-  const VisibilityOptions& visibility = method.mesh.visibility;
-  return {{"weight", method.mesh.weight == MeshWeight::volume ? "volume" : "depth"},
+Json mesh_json(const Method& method) {
+  const auto* const mesh = std::get_if<MeshMethod>(&method);
+  if (mesh == nullptr) return nullptr;
+  const VisibilityOptions& visibility = mesh->visibility;
+  return {{"weight", mesh->weight == MeshWeight::volume ? "volume" : "depth"},
           {"step_px", visibility.step_px},
           {"holes", visibility.holes == DepthHoles::fill ? "fill" : "unknown"},
           {"fill_reach_px", visibility.fill_reach_px},
           {"offset_sigmas", visibility.offset_sigmas},
-          {"opening_m", method.mesh.opening_m},
-          {"enlarge", method.mesh.enlarge},
-          {"image_width", method.mesh.image_width},
-          {"exact_views", method.mesh.exact_views},
-          {"shortlist", method.mesh.shortlist},
-          {"shortlist_voxel_m", method.mesh.shortlist_voxel_m}};
+          {"opening_m", mesh->opening_m},
+          {"enlarge", mesh->enlarge},
+          {"image_width", mesh->image_width},
+          {"exact_views", mesh->exact_views},
+          {"shortlist", mesh->shortlist},
+          {"shortlist_voxel_m", mesh->shortlist_voxel_m}};
 }
 
 }  // namespace
@@ -153,7 +161,7 @@ Json config_of(const PlanRequest& request) {
        {{"min_m", to_json(request.work_area.min())}, {"max_m", to_json(request.work_area.max())}}},
       {"candidates", config_of(request.candidates, request.work_area)},
       {"constraints", config_of(request.constraints)},
-      {"depth_power", request.method.depth_power},
+      {"depth_power", depth_power_of(request.method)},
       {"mesh", mesh_json(request.method)},
       {"servo",
        {{"iterations", request.servo.iterations}, {"image_width", request.servo.image_width}}},
