@@ -9,6 +9,7 @@
 #include "cli/command.hpp"
 #include "cli/number_checks.hpp"
 #include "cli/shared_options.hpp"
+#include "cli/volume_text.hpp"
 #include "documents/document_value.hpp"
 #include "documents/schema_check.hpp"
 #include "documents/schemas.hpp"
@@ -65,11 +66,12 @@ Json true_gain(const std::filesystem::path& workcell_file, const std::filesystem
 std::string summary_of_true_gain(const Json& gain) {
   const auto number = [&](const char* key) { return gain[key].get<double>(); };
   return fmt::format(
-      "promised   {:.6f} m³ newly observed\n"
-      "true gain  {:.6f} m³ of the hidden volume really seen: {:.1f} % of the promise\n"
-      "hidden     {:.6f} m³ before; the view reveals {:.1f} % of it (voxels of {} m)\n",
-      number("promised_m3"), number("true_gain_m3"), 100 * number("gain_of_promised"),
-      number("true_hidden_m3"), 100 * number("gain_of_hidden"), number("voxel_size_m"));
+      "promised   {} newly observed\n"
+      "true gain  {} of the hidden volume really seen: {:.1f} % of the promise\n"
+      "hidden     {} before; the view reveals {:.1f} % of it (voxels of {} m)\n",
+      volume_text(number("promised_m3")), volume_text(number("true_gain_m3")),
+      100 * number("gain_of_promised"), volume_text(number("true_hidden_m3")),
+      100 * number("gain_of_hidden"), number("voxel_size_m"));
 }
 
 namespace {

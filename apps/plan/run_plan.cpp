@@ -10,6 +10,7 @@
 #include "cli/workers.hpp"
 #include "plan/report/plan_pictures.hpp"
 #include "plan/report/plan_summary.hpp"
+#include "vantage/planner/advanced/mesh_scorer.hpp"
 #include "vantage/raycore/detail/file.hpp"
 #include "vantage/raycore/error.hpp"
 #include "vantage/raycore/mesh_io.hpp"
@@ -30,9 +31,10 @@ void make_folder(const fs::path& folder) {
 }
 
 /// What no depth image shows, known objects or not, as the mesh method filters it.
-TriangleMesh unseen_surface_of(const Plan& plan, const WorldModel& world) {
+TriangleMesh unseen_surface_of(const Plan& plan, const WorldModel& world,
+                               const MeshMethod& method) {
   const GridGeometry& geometry = plan.grid->geometry();
-  const SeenWorld seen = seen_world(world, geometry.box(), plan.request.method.mesh);
+  const SeenWorld seen = seen_world(world, geometry.box(), plan.request.volume.noise, method);
   return seen.opened ? unseen_surface(seen.lattices, *seen.opened)
                      : unseen_surface(seen.lattices, geometry);
 }
@@ -52,8 +54,9 @@ void write_extras(const Plan& plan, const ShadowRegions& regions, const WorldMod
         [&](const fs::path& p) { write_ply(p, voxel_faces(*plan.grid, VoxelState::shadow)); });
   write(output.save_surface, "shadow_smooth.ply",
         [&](const fs::path& p) { write_ply(p, smooth_surface(*plan.grid, VoxelState::shadow)); });
-  write(output.save_surface && plan.request.method.name == "mesh", "unseen.ply",
-        [&](const fs::path& p) { write_ply(p, unseen_surface_of(plan, world)); });
+  const auto* const mesh = std::get_if<MeshMethod>(&plan.request.method);
+  write(output.save_surface && mesh != nullptr, "unseen.ply",
+        [&](const fs::path& p) { write_ply(p, unseen_surface_of(plan, world, *mesh)); });
   write(output.save_scene, "scene.glb",
         [&](const fs::path& p) { write_scene_model(p, plan, world); });
   write(output.pictures, "overview.png",
@@ -84,23 +87,12 @@ ExitCode exit_code_of(const Plan& plan) {
 /// Asked for before the work, so that a wrong id costs nothing.
 void check_explained(const PlanRequest& request, const std::vector<int>& ids) {
   if (ids.empty()) return;
-  const std::size_t count = view_candidates(request.candidates, request.work_area).size();
+  const std::size_t count = view_count(request.candidates, request.work_area);
   for (const int id : ids) {
     if (id >= 0 && std::size_t(id) < count) continue;
     throw bad_input("--explain",
                     fmt::format("found candidate {}; expected 0 to {}", id, count - 1));
   }
-}
-
-/// Nothing where the plan was stopped too early for it.
-std::vector<ViewExplanation> explain(const WorldModel& world, const Plan& plan,
-                                     const std::vector<int>& ids, const StopToken& stop) {
-  std::vector<ViewExplanation> explained;
-  for (const int id : ids) {
-    if (plan.classified == nullptr || stop.stop_requested()) break;
-    explained.push_back(explain_view(world, plan, id));
-  }
-  return explained;
 }
 
 }  // namespace
@@ -117,8 +109,10 @@ ExitCode run_plan(const WorldModel& world, const PlanRequest& request, PlanRecor
   const Plan plan = workers.execute([&] {
     const ProgressLine progress("planning", run.stop);
     Plan result = plan_next_view(world, request, run.stop);
-    if (result.classified != nullptr) regions.emplace(*result.classified);
-    explained = explain(world, result, output.explain, run.stop);
+    if (result.classified != nullptr) {
+      regions.emplace(*result.classified);
+      explained = explain_views(world, result, output.explain, run.stop);
+    }
     return result;
   });
   record.total_s = std::chrono::duration<double>(StopToken::Clock::now() - start).count();

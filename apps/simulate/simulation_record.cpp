@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "cli/inputs_json.hpp"
+#include "cli/volume_text.hpp"
 #include "options/field_json.hpp"
 #include "options/sensor_fields.hpp"
 #include "simulate/workcell_export.hpp"
@@ -116,10 +117,10 @@ std::string summary_of_simulation(const Json& record) {
   for (const Json& name : record["images"]) {
     cameras += (cameras.empty() ? "" : ", ") + name.get<std::string>();
   }
-  const auto volume = [&](const char* key) { return volumes[key].get<double>(); };
+  const auto volume = [&](const char* key) { return volume_text(volumes[key].get<double>()); };
   return fmt::format(
       "images     {} ({})\nobjects    {} known, {} foreign\n"
-      "truth      occupied {:.6f}, free {:.6f}, hidden {:.6f} m³, voxels of {} m\n",
+      "truth      occupied {}, free {}, hidden {}, voxels of {} m\n",
       record["images"].size(), cameras, record["known_objects"].get<int>(),
       record["foreign_objects"].get<int>(), volume("occupied"), volume("free"), volume("hidden"),
       volumes["voxel_size_m"].get<double>());

@@ -2,20 +2,19 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <map>
+
+#include "cli/volume_text.hpp"
 
 namespace vantage {
 namespace {
 
 std::string rejections(const Plan& plan) {
-  std::map<InvalidReason, int> counts;
-  for (const ScoredCandidate& candidate : plan.candidates) {
-    if (candidate.rejected != InvalidReason::none) ++counts[candidate.rejected];
-  }
   std::string text;
-  for (const auto& [reason, count] : counts) {
-    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, to_text(reason));
+  for (const auto& [reason, count] : rejections_of(plan)) {
+    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, reason);
   }
   return text;
 }
@@ -27,10 +26,26 @@ std::string camera_text(const Pose& T_world_cam) {
                      p.y(), p.z(), look.x(), look.y(), look.z());
 }
 
+/// The pose in full: a quaternion, and T_world_cam as a matrix.
+std::string pose_text(const Pose& T_world_cam) {
+  const Eigen::Quaterniond q(T_world_cam.rotation());
+  std::string text = fmt::format("rotation   quaternion w {:.6f}, x {:.6f}, y {:.6f}, z {:.6f}\n",
+                                 q.w(), q.x(), q.y(), q.z());
+  Eigen::Matrix4d matrix = Eigen::Matrix4d::Identity();
+  matrix.topLeftCorner<3, 3>() = T_world_cam.rotation();
+  matrix.topRightCorner<3, 1>() = T_world_cam.translation();
+  for (int row = 0; row < 4; ++row) {
+    text +=
+        fmt::format("{:<11}[{:9.6f}, {:9.6f}, {:9.6f}, {:9.6f}]\n", row == 0 ? "T_world_cam" : "",
+                    matrix(row, 0), matrix(row, 1), matrix(row, 2), matrix(row, 3));
+  }
+  return text;
+}
+
 std::string reveals_text(const Plan& plan, std::uint64_t voxels) {
   const double revealed = plan.volume_m3(voxels);
   const double shadow = plan.classified->volume_m3(VoxelState::shadow);
-  return fmt::format("{:.6f} m³, {:.1f} % of the shadow", revealed,
+  return fmt::format("{}, {:.1f} % of the shadow", volume_text(revealed),
                      shadow > 0 ? 100 * revealed / shadow : 0.0);
 }
 
@@ -40,10 +55,11 @@ std::string shortlist_text(const Plan& plan) {
                                     [](const ScoredCandidate& candidate) {
                                       return candidate.score.known == ScoreBound::Known::pruned;
                                     });
-  if (pruned == 0) return "";
+  const auto* const mesh = std::get_if<MeshMethod>(&plan.request.method);
+  if (pruned == 0 || mesh == nullptr) return "";
   return fmt::format(
       "shortlist  {} candidates were passed over for less shadow in a carved grid of {} m\n",
-      pruned, plan.request.method.mesh.shortlist_voxel_m);
+      pruned, mesh->shortlist_voxel_m);
 }
 
 std::string origin_text(const Plan& plan, const RankedView& view) {
@@ -59,56 +75,16 @@ std::string origin_text(const Plan& plan, const RankedView& view) {
 
 std::string best_summary(const Plan& plan) {
   const RankedView& best = *plan.best();
+  const std::uint64_t hidden = grid.count(VoxelState::shadow) - unmeasured - outside;
   std::string text = fmt::format(
-      "next view  {}\n"
-      "camera     {}\n"
-      "reveals    {}\n",
-      origin_text(plan, best), camera_text(best.T_world_cam),
-      reveals_text(plan, plan.views.front().revealed_voxels));
-  if (plan.request.method.name != "voxel") {
-    text += fmt::format("score      {:.6g} {} (method {})\n", plan.in_units(best.score),
-                        plan.score_unit_name, plan.request.method.name);
-  }
-  text += shortlist_text(plan);
-  std::uint64_t revealed = plan.views.front().revealed_voxels;
-  for (std::size_t i = 1; i < plan.views.size(); ++i) {
-    const NextView& next = plan.views[i];
-    revealed += next.revealed_voxels;
-    text +=
-        fmt::format("view {:<6}candidate {} {}\n           reveals {} more\n", i + 1,
-                    plan.candidates[next.view.candidate].view.id,
-                    camera_text(next.view.T_world_cam), reveals_text(plan, next.revealed_voxels));
-  }
-  if (plan.views.size() > 1) {
-    text += fmt::format("together   {}\n", reveals_text(plan, revealed));
-  }
-  return text;
-}
-
-std::string no_view_summary(const Plan& plan) {
-  if (plan.stopped != StopReason::none) return "stopped before any score\n";
-  const bool all_rejected = std::all_of(
-      plan.candidates.begin(), plan.candidates.end(),
-      [](const ScoredCandidate& candidate) { return candidate.rejected != InvalidReason::none; });
-  if (all_rejected) return "no feasible view: every candidate was rejected\n";
-  if (plan.classified->count(VoxelState::shadow) == 0) return "no view: there is no shadow\n";
-  return "no view: none of the candidates reveals any shadow\n";
-}
-
-std::string shadow_summary(const StateGrid& grid, const ShadowRegions& regions) {
-  const double voxel_m3 = grid.geometry().voxel_volume_m3();
-  const std::uint64_t unmeasured = grid.report().unmeasured_shadow;
-  const std::uint64_t outside = grid.report().outside_shadow;
-  std::string text = fmt::format(
-      "shadow     {:.6f} m³ hidden, {:.6f} m³ without a reading, {:.6f} m³ outside all images; {} "
-      "{}",
-      double(grid.count(VoxelState::shadow) - unmeasured - outside) * voxel_m3,
-      double(unmeasured) * voxel_m3, double(outside) * voxel_m3, regions.list().size(),
+      "shadow     {} hidden, {} without a reading, {} outside all images; {} {}",
+      volume_text(double(hidden) * voxel_m3), volume_text(double(unmeasured) * voxel_m3),
+      volume_text(double(outside) * voxel_m3), regions.list().size(),
       regions.list().size() == 1 ? "region" : "regions");
   if (regions.list().size() > 1) {
     const ShadowRegion& largest = regions.list().front();
-    text += fmt::format(", the largest {:.6f} m³ around [{:.3f}, {:.3f}, {:.3f}] m",
-                        double(largest.voxels) * voxel_m3, largest.centroid_m.x(),
+    text += fmt::format(", the largest {} around [{:.3f}, {:.3f}, {:.3f}] m",
+                        volume_text(double(largest.voxels) * voxel_m3), largest.centroid_m.x(),
                         largest.centroid_m.y(), largest.centroid_m.z());
   }
   return text + "\n";
@@ -117,19 +93,21 @@ std::string shadow_summary(const StateGrid& grid, const ShadowRegions& regions) 
 std::string volume_summary(const Plan& plan, const ShadowRegions& regions) {
   const StateGrid& grid = *plan.classified;
   const double voxel_m3 = grid.geometry().voxel_volume_m3();
-  std::string text = fmt::format(
-      "work area  {:.6f} m³ in voxels of {} m: occupied {:.6f}, free {:.6f}, shadow {:.6f} m³\n",
-      grid.geometry().volume_m3(), plan.request.voxel_size_m, grid.volume_m3(VoxelState::occupied),
-      grid.volume_m3(VoxelState::free), grid.volume_m3(VoxelState::shadow));
+  std::string text =
+      fmt::format("work area  {} in voxels of {} m: occupied {}, free {}, shadow {}\n",
+                  volume_text(grid.geometry().volume_m3()), plan.request.voxel_size_m,
+                  volume_text(grid.volume_m3(VoxelState::occupied)),
+                  volume_text(grid.volume_m3(VoxelState::free)),
+                  volume_text(grid.volume_m3(VoxelState::shadow)));
   text += shadow_summary(grid, regions);
   if (plan.request.volume.anti_aliased()) {
-    text += fmt::format("anti-alias {:.6f} m³ of thin shadow became free\n",
-                        double(grid.report().aliased_shadow) * voxel_m3);
+    text += fmt::format("anti-alias {} of thin shadow became free\n",
+                        volume_text(double(grid.report().aliased_shadow) * voxel_m3));
   }
   for (const ObjectConflict& conflict : grid.report().conflicts) {
-    text += fmt::format("conflict   {}: depth images see through {:.6f} of its {:.6f} m³\n",
-                        conflict.object, double(conflict.voxels) * voxel_m3,
-                        double(conflict.of_voxels) * voxel_m3);
+    text += fmt::format("conflict   {}: depth images see through {} of its {}\n", conflict.object,
+                        volume_text(double(conflict.voxels) * voxel_m3),
+                        volume_text(double(conflict.of_voxels) * voxel_m3));
   }
   return text;
 }
@@ -146,8 +124,9 @@ std::string explanation(const Plan& plan, const ViewExplanation& view) {
     text += fmt::format("  {:<22} {:.6g} {}\n", term.name, term.value, term.unit);
   }
   for (const RegionGain& gain : view.regions) {
-    text += fmt::format("  of shadow region {:<5} {:.6f} of {:.6f} m³\n", gain.region + 1,
-                        plan.volume_m3(gain.revealed), plan.volume_m3(gain.voxels));
+    text += fmt::format("  of shadow region {:<5} {} of {}\n", gain.region + 1,
+                        volume_text(plan.volume_m3(gain.revealed)),
+                        volume_text(plan.volume_m3(gain.voxels)));
   }
   return text;
 }

@@ -1,15 +1,13 @@
 #include "vantage/planner/plan.hpp"
 
-#include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
 #include <chrono>
-#include <cmath>
+#include <map>
 
 #include "plan/planner_context.hpp"
 #include "plan/polish_ranked.hpp"
 #include "plan/view_sequence.hpp"
-#include "vantage/raycore/error.hpp"
 #include "vantage/volume/advanced/classify.hpp"
 
 namespace vantage {
@@ -27,7 +25,8 @@ void check(const PlanRequest& request) {
   request.polish.check();
   request.search.check();
   request.views.check();
-  request.method.check();
+  check(request.method);
+  request.volume.check();
 }
 
 void search(const WorldModel& world, const std::vector<ViewCandidate>& views, Plan& plan,
@@ -37,7 +36,9 @@ void search(const WorldModel& world, const std::vector<ViewCandidate>& views, Pl
   if (stopped()) return;
   const PlanningScene scene(world, plan.classified, plan.request.volume.occluders);
   if (stopped()) return;
-  const planner::detail::PlannerContext context(world, scene, plan.request, views.size());
+  plan.context = std::make_shared<const planner::detail::PlannerContext>(world, scene, plan.request,
+                                                                         views.size());
+  const planner::detail::PlannerContext& context = *plan.context;
   plan.score_unit = context.scorer()->unit();
   plan.score_unit_name = context.scorer()->unit_name();
   SearchResult found = context.search(views, stop);
@@ -77,15 +78,15 @@ void search_classified(const WorldModel& world, const std::vector<ViewCandidate>
 
 }  // namespace
 
-void ViewSequenceOptions::check() const {
-  const bool gains =
-      std::isfinite(min_gain_m3) && min_gain_m3 >= 0 && min_gain_share >= 0 && min_gain_share <= 1;
-  if (most >= 1 && most <= 1000 && gains) return;
-  throw bad_input("views",
-                  fmt::format("{} views with a gain of at least {} m³ and {} of the shadow; "
-                              "expected 1 to 1000 views, a volume that is not negative, and a "
-                              "share from 0 to 1",
-                              most, min_gain_m3, min_gain_share));
+std::vector<std::pair<std::string, std::size_t>> rejections_of(const Plan& plan) {
+  std::map<std::pair<InvalidReason, std::string_view>, std::size_t> counts;
+  for (const ScoredCandidate& candidate : plan.candidates) {
+    if (candidate.rejected == InvalidReason::none) continue;
+    ++counts[{candidate.rejected, candidate.rejection()}];
+  }
+  std::vector<std::pair<std::string, std::size_t>> rejections;
+  for (const auto& [reason, count] : counts) rejections.emplace_back(reason.second, count);
+  return rejections;
 }
 
 Plan plan_next_view(const WorldModel& world, const PlanRequest& request, const StopToken& stop) {

@@ -91,6 +91,24 @@ TEST_CASE("a correct pose is in no conflict, with clean depth and with noisy dep
   CHECK(grid->report().conflicts[0].of_voxels == 6 * 4 * 8);
 }
 
+TEST_CASE("what noise alone sees through is no conflict, a small object that is not there is one") {
+  const test::TurnedBox box = aligned_box({0.02, 0, 0.06});
+  for (std::uint32_t seed = 0; seed < 20; ++seed) {
+    CAPTURE(seed);
+    test::Random random(seed);
+    WorldModel world;
+    world.static_structures = {test::known_box("box", box)};
+    world.cameras.push_back({"front", test::kFront, measured({box}, &random)});
+    // A thin surface band lets noise through, as a real sensor with larger noise would.
+    CHECK(classify(world, test::small_grid(), {.band_sigmas = 0})->report().conflicts.empty());
+    const test::TurnedBox small{{0.006, 0.006, 0.006}, Pose::from_translation({-0.05, 0, 0.06})};
+    world.objects = {test::known_box("small", small)};
+    const auto grid = classify(world, test::small_grid());
+    REQUIRE(grid->report().conflicts.size() == 1);
+    CHECK(grid->report().conflicts[0].object == "small");
+  }
+}
+
 TEST_CASE("conflicts are listed in the order of the world model, objects first") {
   WorldModel world;
   world.static_structures = {test::known_box("z post", aligned_box({0.07, 0, 0.06}))};

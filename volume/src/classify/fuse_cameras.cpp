@@ -99,15 +99,23 @@ void fill_tree(const BlockSet& set, openvdb::MaskTree& tree) {
   });
 }
 
+/// Objects with voxels in conflict, but for what noise explains: single voxels and thin layers
+/// under an object's surface. More than that is a voxel with five of its six neighbours, or a fifth
+/// of the object.
 std::vector<ObjectConflict> conflicts(const KnownObjects& known, const BlockSet& conflict) {
   std::vector<ObjectConflict> found;
+  if (count(conflict) == 0) return found;
+  const BlockSet core = without(conflict, find_aliased(conflict));
   for (std::size_t i = 0; i < known.voxels.size(); ++i) {
     ObjectConflict object{known.names[i], 0, 0};
+    bool thick = false;
     for (const ObjectVoxels::Block& block : known.voxels[i].blocks) {
+      thick = thick || !(block.bits & core.bits(block.block)).none();
       object.voxels += (block.bits & conflict.bits(block.block)).count();
       object.of_voxels += block.bits.count();
     }
-    if (object.voxels > 0) found.push_back(std::move(object));
+    const bool much = object.voxels > 0 && 5 * object.voxels >= object.of_voxels;
+    if (thick || much) found.push_back(std::move(object));
   }
   return found;
 }

@@ -6,7 +6,8 @@
 
 namespace vantage {
 
-/// A known object that depth images see through: its pose or its presence is in doubt.
+/// A known object that depth images see through by more than their noise explains (single voxels,
+/// a thin layer): its pose or its presence is in doubt.
 struct ObjectConflict {
   std::string object;
   std::uint64_t voxels = 0;     ///< of the object's voxels, those seen through
