@@ -8,10 +8,10 @@ namespace {
 const EnumNames<MeshWeight> kWeights{{"depth", MeshWeight::depth}, {"volume", MeshWeight::volume}};
 const EnumNames<DepthHoles> kHoles{{"fill", DepthHoles::fill}, {"unknown", DepthHoles::unknown}};
 
-Field method_field(MethodOptions& method) {
+Field method_field(std::string& method) {
   return {.key = "method",
-          .value = Choice{method_names(), [&method] { return method.name; },
-                          [&method](const std::string& name) { method.name = name; }},
+          .value = Choice{method_names(), [&method] { return method; },
+                          [&method](const std::string& name) { method = name; }},
           .help =
               "What a view is worth; voxel: the volume that it would reveal; shadow: the "
               "shadow in its image, weighted by distance; mesh: the volume that no depth image "
@@ -111,7 +111,7 @@ FieldGroup fields_of(PolishOptions& polish) {
             .range = from_to(16, 16384)}}};
 }
 
-FieldGroup fields_of(MeshOptions& mesh) {
+FieldGroup fields_of(MeshMethod& mesh) {
   VisibilityOptions& visibility = mesh.visibility;
   return {
       "mesh",
@@ -201,7 +201,7 @@ FieldGroup fields_of(ViewSequenceOptions& views) {
 }
 
 FieldGroup fields_of(ViewOptions& options) {
-  FieldGroup mesh = fields_of(options.method.mesh);
+  FieldGroup mesh = fields_of(options.mesh);
   mesh.fields.insert(mesh.fields.begin(), mesh_weight_field(options));
   return {"",
           "Method",
@@ -210,17 +210,27 @@ FieldGroup fields_of(ViewOptions& options) {
            travel_fields(options), fields_of(options.views)}};
 }
 
+MeshMethod ViewOptions::mesh_method() const {
+  MeshMethod result = mesh;
+  result.depth_power = depth_power.value_or(mesh.depth_power);
+  result.weight = mesh_weight.value_or(depth_power ? MeshWeight::depth : mesh.weight);
+  return result;
+}
+
+Method ViewOptions::chosen() const {
+  const Method usual = method_named(method);
+  if (std::holds_alternative<MeshMethod>(usual)) return mesh_method();
+  if (std::holds_alternative<ShadowMethod>(usual) && depth_power) return ShadowMethod{*depth_power};
+  return usual;
+}
+
 void ViewOptions::apply(PlanRequest& request) const {
   if (travel_weight_per_m > 0 && !from_m) {
     throw bad_input("travel",
                     "found a weight of the travel cost, but no start of the journey; expected "
                     "both: give --from X Y Z, or from_m beside weight_per_m");
   }
-  request.method = method;
-  if (depth_power) request.method.depth_power = *depth_power;
-  request.method.mesh.weight =
-      mesh_weight.value_or(depth_power ? MeshWeight::depth : method.mesh.weight);
-  request.method.mesh.visibility.noise = request.volume.noise;
+  request.method = chosen();
   request.servo = servo;
   request.polish = polish;
   request.search.ranked = ranked;

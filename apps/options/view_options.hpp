@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <optional>
+#include <string>
 
 #include "options/field.hpp"
 #include "vantage/planner/plan.hpp"
@@ -11,7 +12,8 @@ namespace vantage {
 /// How views are scored, refined and chosen: what a workcell's `plan` and the command line say of
 /// it.
 struct ViewOptions {
-  MethodOptions method;
+  std::string method{VoxelMethod::kName};
+  MeshMethod mesh;                        ///< but for its weight and power
   std::optional<double> depth_power;      ///< not given: the default
   std::optional<MeshWeight> mesh_weight;  ///< not given: by depth if its power is
   ServoOptions servo;
@@ -21,9 +23,15 @@ struct ViewOptions {
   std::optional<Eigen::Vector3d> from_m;  ///< none: journeys cost nothing
   ViewSequenceOptions views;
 
+  /// The mesh method as it is asked for, whichever method is chosen.
+  MeshMethod mesh_method() const;
+
   /// Puts all of it into a request.
   /// @throws Error bad_input for a weight of the journey without its start.
   void apply(PlanRequest& request) const;
+
+ private:
+  Method chosen() const;
 };
 
 // The descriptions point into what they describe.
@@ -31,7 +39,7 @@ struct ViewOptions {
 FieldGroup fields_of(ViewOptions& options);
 FieldGroup fields_of(ServoOptions& servo);
 FieldGroup fields_of(PolishOptions& polish);
-FieldGroup fields_of(MeshOptions& mesh);
+FieldGroup fields_of(MeshMethod& mesh);
 FieldGroup fields_of(ViewSequenceOptions& views);
 
 }  // namespace vantage

@@ -10,6 +10,7 @@
 #include "cli/workers.hpp"
 #include "plan/report/plan_pictures.hpp"
 #include "plan/report/plan_summary.hpp"
+#include "vantage/planner/advanced/mesh_scorer.hpp"
 #include "vantage/raycore/detail/file.hpp"
 #include "vantage/raycore/error.hpp"
 #include "vantage/raycore/mesh_io.hpp"
@@ -30,9 +31,10 @@ void make_folder(const fs::path& folder) {
 }
 
 /// What no depth image shows, known objects or not, as the mesh method filters it.
-TriangleMesh unseen_surface_of(const Plan& plan, const WorldModel& world) {
+TriangleMesh unseen_surface_of(const Plan& plan, const WorldModel& world,
+                               const MeshMethod& method) {
   const GridGeometry& geometry = plan.grid->geometry();
-  const SeenWorld seen = seen_world(world, geometry.box(), plan.request.method.mesh);
+  const SeenWorld seen = seen_world(world, geometry.box(), plan.request.volume.noise, method);
   return seen.opened ? unseen_surface(seen.lattices, *seen.opened)
                      : unseen_surface(seen.lattices, geometry);
 }
@@ -52,8 +54,9 @@ void write_extras(const Plan& plan, const ShadowRegions& regions, const WorldMod
         [&](const fs::path& p) { write_ply(p, voxel_faces(*plan.grid, VoxelState::shadow)); });
   write(output.save_surface, "shadow_smooth.ply",
         [&](const fs::path& p) { write_ply(p, smooth_surface(*plan.grid, VoxelState::shadow)); });
-  write(output.save_surface && plan.request.method.name == "mesh", "unseen.ply",
-        [&](const fs::path& p) { write_ply(p, unseen_surface_of(plan, world)); });
+  const auto* const mesh = std::get_if<MeshMethod>(&plan.request.method);
+  write(output.save_surface && mesh != nullptr, "unseen.ply",
+        [&](const fs::path& p) { write_ply(p, unseen_surface_of(plan, world, *mesh)); });
   write(output.save_scene, "scene.glb",
         [&](const fs::path& p) { write_scene_model(p, plan, world); });
   write(output.pictures, "overview.png",

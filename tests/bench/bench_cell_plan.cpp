@@ -40,7 +40,7 @@ Shared classified(const std::string& name) {
 
 void add(const Shared& cell, const std::string& method, const std::string& set, int polish) {
   PlanRequest request = cell->cell.request;
-  request.method.name = method;
+  request.method = method_named(method);
   request.candidates = set == "full" ? full_views() : production_views();
   request.polish.views = polish;
   const std::string name =

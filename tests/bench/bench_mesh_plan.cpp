@@ -30,7 +30,7 @@ PlanRequest request_for(const HalfSpheres& candidates, int servo, int polish) {
   PlanRequest request{.work_area = seen_box(),
                       .intrinsics = {640, 480, 615, 615, 319.5, 239.5},
                       .range = {0.05, 2}};
-  request.method.name = "mesh";
+  request.method = MeshMethod{};
   request.candidates = candidates;
   request.servo.iterations = servo;
   request.polish.views = polish;

@@ -73,12 +73,12 @@ double view_us(const std::vector<PinholeCamera>& views, const Use& use) {
   return 1e6 * median(times) / double(views.size());
 }
 
-PlanRequest request_for(const PlannerScene& s, const CandidateSet& set, const std::string& method,
+PlanRequest request_for(const PlannerScene& s, const CandidateSet& set, const Method& method,
                         int servo_iterations) {
   PlanRequest request{.work_area = s.area, .intrinsics = s.camera.intrinsics()};
   request.range = s.camera.range();
   request.candidates = set;
-  request.method = {method, kPower};
+  request.method = method;
   request.servo.iterations = servo_iterations;
   return request;
 }
@@ -164,17 +164,18 @@ void report_bounds(const PlannerScene& s, const std::vector<PinholeCamera>& view
 }
 
 void report_search(const PlannerScene& s, std::size_t views, double single_s, Rows& rows) {
-  const double full_s = plan_time(s, request_for(s, full_views(), "shadow", 0), 1).processor_s;
+  const double full_s =
+      plan_time(s, request_for(s, full_views(), ShadowMethod{kPower}, 0), 1).processor_s;
   rows.emplace_back(
       s.name + ", full set, no servo, one thread",
       fmt::format("{:.2f} s; single rays for every pixel {:.0f} s: ÷ {:.0f} (goal 30)", full_s,
                   single_s * double(views), single_s * double(views) / full_s));
-  for (const std::string method : {"shadow", "voxel"}) {
+  for (const Method& method : {Method(ShadowMethod{kPower}), Method(VoxelMethod{})}) {
     const PlanTime full = plan_time(s, request_for(s, full_views(), method, 5), 2);
     const PlanTime few = best_plan_time(s, request_for(s, production_views(), method, 5), 2);
-    const bool shadow = method == "shadow";
+    const bool shadow = std::holds_alternative<ShadowMethod>(method);
     rows.emplace_back(
-        s.name + ", " + method + ", servo 5, two threads",
+        fmt::format("{}, {}, servo 5, two threads", s.name, name_of(method)),
         fmt::format("full set {:.2f} s (goal {}; processor {:.2f} s), production set {:.1f} ms "
                     "(goal {}; processor {:.1f} ms)",
                     full.wall_s, shadow ? 15 : 3, full.processor_s, 1e3 * few.wall_s,

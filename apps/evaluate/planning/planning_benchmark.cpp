@@ -11,8 +11,11 @@
 #include "plan/report/plan_pictures.hpp"
 #include "simulator/scene/ground_truth.hpp"
 #include "vantage/planner/advanced/planning_scene.hpp"
+#include "vantage/planner/advanced/servo_refiner.hpp"
 #include "vantage/planner/advanced/shadow_scorer.hpp"
+#include "vantage/planner/advanced/view_polisher.hpp"
 #include "vantage/planner/advanced/view_search.hpp"
+#include "vantage/planner/advanced/view_validity_checker.hpp"
 #include "vantage/planner/advanced/voxel_scorer.hpp"
 #include "vantage/volume/advanced/classify.hpp"
 
@@ -97,16 +100,16 @@ class SceneRun {
       if (run.pick) {
         set.best_true_gain_m3 = std::max(set.best_true_gain_m3, run.pick->worth().true_gain_m3);
       }
-      draw(plan, run, name, result.pictures);
+      draw(plan, method, run, name, result.pictures);
       set.runs.push_back(run);
     }
     return set;
   }
 
   Plan timed_plan(const NamedMethod& method, MethodRun& run) {
-    request_.method = method.options;
-    request_.method.mesh.visibility.noise = request_.volume.noise;
-    const WorldModel& world = method.options.name == "mesh" ? cell_.measured : cell_.world;
+    request_.method = method.method;
+    const bool measured = std::holds_alternative<MeshMethod>(method.method);
+    const WorldModel& world = measured ? cell_.measured : cell_.world;
     Plan plan = plan_next_view(world, grid_, request_, stop_);
     run.run_times_s.push_back(plan.score_s);
     for (int i = 1; i < settings_.repeat && !stop_.stop_requested(); ++i) {
@@ -172,10 +175,11 @@ class SceneRun {
   }
 
   /// The first set's picks of the first and of the last method of interest.
-  void draw(const Plan& plan, const MethodRun& run, const std::string& set,
-            std::vector<PagePicture>& pictures) const {
+  void draw(const Plan& plan, const NamedMethod& method, const MethodRun& run,
+            const std::string& set, std::vector<PagePicture>& pictures) const {
     if (settings_.picture_width == 0 || set != settings_.sets.front()) return;
-    if (run.method != "voxel" && run.method != other_method()) return;
+    const bool by_voxels = std::holds_alternative<VoxelMethod>(method.method);
+    if (!by_voxels && method.name != other_method()) return;
     const auto image = overview(plan, cell_.world, settings_.picture_width, stop_);
     if (!image) return;
     const std::string caption = run.pick ? fmt::format("{}’s pick from the {} set", run.method, set)

@@ -15,7 +15,7 @@ namespace vantage {
 /// A method under the name that tables have of it.
 struct NamedMethod {
   std::string name;
-  MethodOptions options;
+  Method method;
 };
 
 /// "voxel", "mesh", "light", "shadow" (D6), or "shadowD" and any power of the depth.

@@ -19,28 +19,36 @@ void refuse_twice(const std::string& where, const std::vector<std::string>& name
   }
 }
 
-/// The power of the depth that a name ends in.
-std::optional<double> power_in(const std::string& name, std::size_t begin) {
+/// The power of the depth that a name ends in, if it is that method's name, D and a power.
+template <class Kind>
+std::optional<double> power_in(const std::string& name) {
+  const std::string begin = std::string(Kind::kName) + "D";
+  if (!name.starts_with(begin)) return std::nullopt;
   double power = 0;
-  const char *const first = name.data() + begin, *const last = name.data() + name.size();
+  const char *const first = name.data() + begin.size(), *const last = name.data() + name.size();
   const auto [end, error] = std::from_chars(first, last, power);
   const bool valid = error == std::errc() && end == last && power >= 0 && power <= 16;
   return valid ? std::optional(power) : std::nullopt;
 }
 
+/// A method under its name with its power.
+template <class Kind>
+NamedMethod by_depth(const Kind& method) {
+  return {fmt::format("{}D{}", Kind::kName, method.depth_power), method};
+}
+
 }  // namespace
 
 NamedMethod named_method(const std::string& name) {
-  if (name == "shadow") return {"shadowD6", {.name = "shadow", .depth_power = 6}};
+  if (name == ShadowMethod::kName) return by_depth(ShadowMethod{});
   if (std::ranges::find(method_names(), name) != method_names().end()) {
-    return {name, {.name = name}};
+    return {name, method_named(name)};
   }
-  for (const std::string method : {"shadow", "mesh"}) {
-    if (!name.starts_with(method + "D")) continue;
-    const auto power = power_in(name, method.size() + 1);
-    if (!power) continue;
-    return {fmt::format("{}D{}", method, *power),
-            {.name = method, .depth_power = *power, .mesh = {.weight = MeshWeight::depth}}};
+  if (const auto power = power_in<ShadowMethod>(name)) {
+    return by_depth(ShadowMethod{.depth_power = *power});
+  }
+  if (const auto power = power_in<MeshMethod>(name)) {
+    return by_depth(MeshMethod{.weight = MeshWeight::depth, .depth_power = *power});
   }
   throw bad_input("--methods",
                   fmt::format("found '{}'; expected one of: {}; shadowD or meshD and a number from "
@@ -62,9 +70,10 @@ std::vector<NamedMethod> named_methods(const std::vector<std::string>& names) {
 void choose(const std::vector<std::string>& methods, const std::vector<std::string>& sets,
             PlanningBenchmarkOptions& options) {
   refuse_twice("--candidates", sets);
-  options.methods = {named_method("voxel")};
+  options.methods = {{std::string(VoxelMethod::kName), VoxelMethod{}}};
   for (NamedMethod& method : named_methods(methods)) {
-    if (method.name != "voxel") options.methods.push_back(std::move(method));
+    if (std::holds_alternative<VoxelMethod>(method.method)) continue;
+    options.methods.push_back(std::move(method));
   }
   for (const std::string& set : kSets) {
     if (std::ranges::find(sets, set) != sets.end()) options.sets.push_back(set);

@@ -33,20 +33,23 @@ struct ReplayCommandOptions {
   int threads = 0;
 };
 
-ReplayBenchmarkOptions options_of(const ReplayCommandOptions& arguments, const MeshOptions& mesh) {
+ReplayBenchmarkOptions options_of(const ReplayCommandOptions& arguments, const MeshMethod& mesh) {
   ReplayBenchmarkOptions settings = arguments.settings;
   settings.methods = named_methods(arguments.methods);
   for (NamedMethod& method : settings.methods) {
-    const MeshWeight named = method.options.mesh.weight;
-    method.options.mesh = mesh;
-    method.options.mesh.weight = named;
+    auto* const by_mesh = std::get_if<MeshMethod>(&method.method);
+    if (by_mesh == nullptr) continue;
+    const MeshMethod named = *by_mesh;
+    *by_mesh = mesh;
+    by_mesh->weight = named.weight;
+    by_mesh->depth_power = named.depth_power;
   }
   return settings;
 }
 
 Json config_json(const ReplayCommandOptions& arguments, const PlanInput& input) {
   PlanRequest request = input.request;
-  request.method.name = "mesh";
+  request.method = input.mesh;
   const Json all = config_of(request);
   Json config = input.record.config;
   config.update({{"methods", arguments.methods},
@@ -74,7 +77,7 @@ ExitCode evaluate(const ReplayCommandOptions& arguments) {
   Workers workers(arguments.threads);
   PlanInput input = workers.execute([&] { return load_plan_input(arguments.plan, stop); });
   for (const std::string& warning : input.warnings) spdlog::warn("{}", warning);
-  const ReplayBenchmarkOptions settings = options_of(arguments, input.request.method.mesh);
+  const ReplayBenchmarkOptions settings = options_of(arguments, input.mesh);
   const ReplayEvaluation evaluation = workers.execute([&] {
     const ProgressLine progress("replaying", stop);
     return evaluate_replay(input, settings, stop);
@@ -119,7 +122,7 @@ void add_evaluate_replay(CLI::App& evaluate_verb, Action& action) {
   const auto arguments = std::make_shared<ReplayCommandOptions>();
   add_input_options(*verb, arguments->plan);
   add_replay_options(*verb, *arguments);
-  MeshOptions mesh;
+  MeshMethod mesh;
   add_fields(*verb, {"", "", {}, {fields_of(mesh)}}, arguments->plan.given);
   add_object_options(*verb, arguments->plan.objects);
   add_volume_options(*verb, arguments->plan);

@@ -6,6 +6,8 @@
 #include <algorithm>
 
 #include "metrics/reconstruction/frame_pairs.hpp"
+#include "vantage/planner/advanced/make_view_scorer.hpp"
+#include "vantage/planner/advanced/planning_scene.hpp"
 #include "vantage/planner/advanced/voxel_scorer.hpp"
 #include "vantage/raycore/error.hpp"
 #include "vantage/volume/advanced/classify.hpp"
@@ -115,9 +117,8 @@ class Replay {
   /// Adds a method's scores and its pick.
   void choose(const NamedMethod& method, const PlanningScene& scene, const WorldModel& two,
               const std::vector<std::size_t>& others, ReplayPair& pair) const {
-    MethodOptions options = method.options;
-    options.mesh.visibility.noise = input_.request.volume.noise;
-    const auto scorer = make_view_scorer(options, scene, two, frames_.front().camera.range());
+    const auto scorer = make_view_scorer(method.method, scene, two, frames_.front().camera.range(),
+                                         input_.request.volume.noise);
     std::vector<Score> scores(others.size());
     tbb::parallel_for(std::size_t(0), others.size(), [&](std::size_t i) {
       if (!stop_.stop_requested()) scores[i] = scorer->score(frames_[others[i]].camera).score;

@@ -4,6 +4,7 @@
 #include "vantage/raycore/error.hpp"
 #include "vantage/volume/advanced/carve.hpp"
 #include "vantage/volume/advanced/shadow_filter.hpp"
+#include "vantage/volume/advanced/visibility.hpp"
 
 namespace vantage {
 namespace {
@@ -17,8 +18,8 @@ std::vector<VisibilityMesh> lattices_of(const PlanningCell& cell,
                                      "\" has no depth image; visibility meshes are made of them. "
                                      "Expected +ideal or +noisy");
     }
-    auto lattice =
-        visibility_lattice({observer.camera, observer.depth}, cell.request.work_area, options);
+    auto lattice = visibility_lattice({observer.camera, observer.depth}, cell.request.work_area,
+                                      cell.request.volume.noise, options);
     if (lattice) lattices.push_back(std::move(*lattice));
   }
   return lattices;
@@ -56,8 +57,7 @@ FilteredScene evaluate_shadow_filters(const PlanningCell& cell, const ShadowFilt
       offset = filter.offset_sigmas;
       grid = carve(lattices_of(cell, {.step_px = settings.step_px,
                                       .holes = settings.holes,
-                                      .offset_sigmas = *offset,
-                                      .noise = cell.request.volume.noise}),
+                                      .offset_sigmas = *offset}),
                    geometry, known_of(cell), stop);
       if (grid == nullptr) return scene;
     }

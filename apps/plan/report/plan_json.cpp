@@ -87,7 +87,7 @@ Json warnings_json(const Plan& plan, const std::vector<std::string>& of_input) {
 Json plan_to_json(const Plan& plan, const ShadowRegions* regions,
                   const std::vector<ViewExplanation>& explained, const PlanRecord& record) {
   return {{"vantage", kVersion},
-          {"method", plan.request.method.name},
+          {"method", name_of(plan.request.method)},
           {"score_unit", plan.score_unit_name.empty() ? Json() : Json(plan.score_unit_name)},
           {"partial", plan.stopped != StopReason::none},
           {"finished_candidates", plan.finished},
@@ -127,11 +127,20 @@ Json camera_json(const PlanRequest& request) {
 
 namespace {
 
+/// For the methods that know no such power: the usual one.
+double depth_power_of(const Method& method) {
+  if (const auto* const shadow = std::get_if<ShadowMethod>(&method)) return shadow->depth_power;
+  if (const auto* const mesh = std::get_if<MeshMethod>(&method)) return mesh->depth_power;
+  return ShadowMethod().depth_power;
+}
+
 /// Null for the methods that it does not concern.
-Json mesh_json(MethodOptions method) {
-  if (method.name != "mesh") return nullptr;
-  Json json{{"weight", method.mesh.weight == MeshWeight::volume ? "volume" : "depth"}};
-  json.update(to_json(fields_of(method.mesh)));
+Json mesh_json(const Method& method) {
+  const auto* const by_mesh = std::get_if<MeshMethod>(&method);
+  if (by_mesh == nullptr) return nullptr;
+  MeshMethod mesh = *by_mesh;
+  Json json{{"weight", mesh.weight == MeshWeight::volume ? "volume" : "depth"}};
+  json.update(to_json(fields_of(mesh)));
   return json;
 }
 
@@ -155,7 +164,7 @@ Json config_of(const PlanRequest& used) {
        {{"min_m", to_json(request.work_area.min())}, {"max_m", to_json(request.work_area.max())}}},
       {"candidates", config_of(request.candidates, request.work_area)},
       {"constraints", config_of(request.constraints)},
-      {"depth_power", request.method.depth_power},
+      {"depth_power", depth_power_of(request.method)},
       {"mesh", mesh_json(request.method)},
       {"servo", to_json(fields_of(request.servo))},
       {"polish", to_json(fields_of(request.polish))},

@@ -40,10 +40,11 @@ std::string shortlist_text(const Plan& plan) {
                                     [](const ScoredCandidate& candidate) {
                                       return candidate.score.known == ScoreBound::Known::pruned;
                                     });
-  if (pruned == 0) return "";
+  const auto* const mesh = std::get_if<MeshMethod>(&plan.request.method);
+  if (pruned == 0 || mesh == nullptr) return "";
   return fmt::format(
       "shortlist  {} candidates were passed over for less shadow in a carved grid of {} m\n",
-      pruned, plan.request.method.mesh.shortlist_voxel_m);
+      pruned, mesh->shortlist_voxel_m);
 }
 
 std::string origin_text(const Plan& plan, const RankedView& view) {
@@ -65,9 +66,9 @@ std::string best_summary(const Plan& plan) {
       "reveals    {}\n",
       origin_text(plan, best), camera_text(best.T_world_cam),
       reveals_text(plan, plan.views.front().revealed_voxels));
-  if (plan.request.method.name != "voxel") {
+  if (!std::holds_alternative<VoxelMethod>(plan.request.method)) {
     text += fmt::format("score      {:.6g} {} (method {})\n", plan.in_units(best.score),
-                        plan.score_unit_name, plan.request.method.name);
+                        plan.score_unit_name, name_of(plan.request.method));
   }
   text += shortlist_text(plan);
   std::uint64_t revealed = plan.views.front().revealed_voxels;

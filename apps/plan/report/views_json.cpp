@@ -89,6 +89,7 @@ Json ranked_json(const Plan& plan) {
 
 Json candidates_json(const Plan& plan) {
   const std::map<std::size_t, double> volumes = volumes_of_ranked(plan);
+  const bool by_voxels = std::holds_alternative<VoxelMethod>(plan.request.method);
   Json list = Json::array();
   for (std::size_t i = 0; i < plan.candidates.size(); ++i) {
     const ScoredCandidate& candidate = plan.candidates[i];
@@ -97,7 +98,7 @@ Json candidates_json(const Plan& plan) {
     const double score = plan.in_units(candidate.score.score);
     const auto volume = volumes.find(i);
     Json counted = volume == volumes.end() ? Json() : Json(volume->second);
-    if (exact && plan.request.method.name == "voxel") counted = score;  // that is the score
+    if (exact && by_voxels) counted = score;  // that is the score
     const bool feasible = candidate.rejected == InvalidReason::none;
     list.push_back({{"id", candidate.view.id},
                     {"score", exact ? Json(score) : Json()},

@@ -1,15 +1,12 @@
 #include "vantage/planner/plan.hpp"
 
-#include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
 #include <chrono>
-#include <cmath>
 
 #include "plan/planner_context.hpp"
 #include "plan/polish_ranked.hpp"
 #include "plan/view_sequence.hpp"
-#include "vantage/raycore/error.hpp"
 #include "vantage/volume/advanced/classify.hpp"
 
 namespace vantage {
@@ -27,7 +24,8 @@ void check(const PlanRequest& request) {
   request.polish.check();
   request.search.check();
   request.views.check();
-  request.method.check();
+  check(request.method);
+  request.volume.check();
 }
 
 void search(const WorldModel& world, const std::vector<ViewCandidate>& views, Plan& plan,
@@ -76,17 +74,6 @@ void search_classified(const WorldModel& world, const std::vector<ViewCandidate>
 }
 
 }  // namespace
-
-void ViewSequenceOptions::check() const {
-  const bool gains =
-      std::isfinite(min_gain_m3) && min_gain_m3 >= 0 && min_gain_share >= 0 && min_gain_share <= 1;
-  if (most >= 1 && most <= 1000 && gains) return;
-  throw bad_input("views",
-                  fmt::format("{} views with a gain of at least {} m³ and {} of the shadow; "
-                              "expected 1 to 1000 views, a volume that is not negative, and a "
-                              "share from 0 to 1",
-                              most, min_gain_m3, min_gain_share));
-}
 
 Plan plan_next_view(const WorldModel& world, const PlanRequest& request, const StopToken& stop) {
   check(request);

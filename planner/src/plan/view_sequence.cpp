@@ -78,7 +78,7 @@ std::optional<RankedView> best_anew(const PlannerContext& left,
 /// A view that was chosen, as a camera; for the mesh method with the depths that it will measure if
 /// nothing stands in the shadow.
 DepthCamera taken(const PinholeCamera& view, const WorldModel& world, const Plan& plan) {
-  if (plan.request.method.name != "mesh") return {"view", view, nullptr};
+  if (!std::holds_alternative<MeshMethod>(plan.request.method)) return {"view", view, nullptr};
   const DepthRange range{1e-3 * view.range().near_m, view.range().far_m};
   const auto occluders = occluder_scene(world, *plan.classified, plan.request.volume.occluders);
   const DepthImage hits =

@@ -1,13 +1,10 @@
 #include "vantage/planner/advanced/servo_refiner.hpp"
 
-#include <fmt/format.h>
-
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
 #include "scene/scale_intrinsics.hpp"
-#include "vantage/raycore/error.hpp"
 
 namespace vantage {
 namespace {
@@ -54,15 +51,6 @@ bool stays(const Pose& a, const Pose& b, const Intrinsics& k) {
 }
 
 }  // namespace
-
-void ServoOptions::check() const {
-  if (iterations < 0 || iterations > 100) {
-    throw bad_input("servo", fmt::format("{} iterations; expected 0 to 100", iterations));
-  }
-  if (image_width < 16 || image_width > 16384) {
-    throw bad_input("servo", fmt::format("images of {} pixels; expected 16 to 16384", image_width));
-  }
-}
 
 std::string_view to_text(ServoMove move) {
   switch (move) {

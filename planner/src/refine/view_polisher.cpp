@@ -1,7 +1,5 @@
 #include "vantage/planner/advanced/view_polisher.hpp"
 
-#include <fmt/format.h>
-
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
@@ -9,7 +7,6 @@
 
 #include "scene/scale_intrinsics.hpp"
 #include "scene/utility.hpp"
-#include "vantage/raycore/error.hpp"
 
 namespace vantage {
 namespace {
@@ -59,16 +56,6 @@ class Surroundings {
 };
 
 }  // namespace
-
-void PolishOptions::check() const {
-  if (views < 0 || views > 1000) {
-    throw bad_input("polish", fmt::format("{} views; expected 0 to 1000", views));
-  }
-  if (image_width < 16 || image_width > 16384) {
-    throw bad_input("polish",
-                    fmt::format("images of {} pixels; expected 16 to 16384", image_width));
-  }
-}
 
 std::string_view to_text(PolishMove move) {
   switch (move) {

@@ -7,7 +7,7 @@
 #include <limits>
 #include <optional>
 
-#include "vantage/planner/advanced/travel_cost.hpp"
+#include "vantage/planner/plan_options.hpp"
 #include "vantage/planner/view_scorer.hpp"
 
 namespace vantage::planner::detail {

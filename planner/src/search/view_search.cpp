@@ -1,13 +1,11 @@
 #include "vantage/planner/advanced/view_search.hpp"
 
-#include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
 
 #include "search/candidate_group.hpp"
 #include "search/top_k.hpp"
-#include "vantage/raycore/error.hpp"
 
 namespace vantage {
 namespace {
@@ -23,15 +21,6 @@ constexpr std::size_t kLargestChunkViews = 8192;
 constexpr std::size_t kBatchSites = 16;
 
 }  // namespace
-
-void SearchOptions::check() const {
-  if (ranked < 1) {
-    throw bad_input("ranked", fmt::format("found {}; expected the number of best views to find for "
-                                          "certain, at least 1",
-                                          ranked));
-  }
-  if (travel) travel->check();
-}
 
 struct ViewSearch::Impl {
   planner::detail::SearchTools context;

@@ -20,34 +20,40 @@ PlanRequest request_from(const std::string& options) {
   read_given(given, fields_of(views));
   PlanRequest request{.work_area = Box({0, 0, 0}, {1, 1, 1}),
                       .intrinsics = {64, 48, 60, 60, 31.5, 23.5}};
-  request.volume.noise.subpixel_px = 0.2;
   views.apply(request);
   return request;
 }
 
+MeshMethod mesh_of(const std::string& options) {
+  return std::get<MeshMethod>(request_from("--method mesh " + options).method);
+}
+
 }  // namespace
 
+TEST_CASE("each method gets its own options") {
+  CHECK(request_from("").method == Method(VoxelMethod{}));
+  CHECK(request_from("--method light --depth-power 3").method == Method(LightMethod{}));
+  CHECK(request_from("--method shadow").method == Method(ShadowMethod{6}));
+  CHECK(request_from("--method shadow --depth-power 3").method == Method(ShadowMethod{3}));
+}
+
 TEST_CASE("the mesh method weighs by volume, and by depth if its power is named") {
-  CHECK(request_from("--method mesh").method.mesh.weight == MeshWeight::volume);
-  const MethodOptions named = request_from("--method mesh --depth-power 3").method;
-  CHECK(named.mesh.weight == MeshWeight::depth);
-  CHECK(named.depth_power == 3);
-  CHECK(request_from("--method mesh --mesh-weight depth").method.depth_power == 6);
-  CHECK(request_from("--mesh-weight depth").method.mesh.weight == MeshWeight::depth);
-  CHECK(request_from("--depth-power 3 --mesh-weight volume").method.mesh.weight ==
-        MeshWeight::volume);
+  CHECK(mesh_of("").weight == MeshWeight::volume);
+  CHECK(mesh_of("--depth-power 3").weight == MeshWeight::depth);
+  CHECK(mesh_of("--depth-power 3").depth_power == 3);
+  CHECK(mesh_of("--mesh-weight depth").weight == MeshWeight::depth);
+  CHECK(mesh_of("--mesh-weight depth").depth_power == 6);
+  CHECK(mesh_of("--depth-power 3 --mesh-weight volume").weight == MeshWeight::volume);
 }
 
 TEST_CASE("what the mesh method is told arrives") {
   const PlanRequest request = request_from(
       "--method mesh --mesh-step 3 --mesh-holes unknown --mesh-offset 2 --mesh-opening 0.04 "
       "--mesh-exact 7 --mesh-shortlist 9 --servo 2 --polish 0");
-  const MeshOptions& mesh = request.method.mesh;
-  CHECK(request.method.name == "mesh");
+  const auto& mesh = std::get<MeshMethod>(request.method);
   CHECK(mesh.visibility.step_px == 3);
   CHECK(mesh.visibility.holes == DepthHoles::unknown);
   CHECK(mesh.visibility.offset_sigmas == 2);
-  CHECK(mesh.visibility.noise == request.volume.noise);
   CHECK(mesh.opening_m == 0.04);
   CHECK(mesh.exact_views == 7);
   CHECK(mesh.shortlist == 9);

@@ -6,6 +6,7 @@
 
 #include "support/expect_error.hpp"
 #include "support/non_finite.hpp"
+#include "vantage/planner/advanced/view_validity_checker.hpp"
 #include "vantage/planner/view_constraints.hpp"
 #include "vantage/volume/advanced/classify.hpp"
 

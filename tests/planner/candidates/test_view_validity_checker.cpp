@@ -8,6 +8,7 @@
 #include "reference/plain_view_check.hpp"
 #include "reference/random_boxes.hpp"
 #include "support/scene_count.hpp"
+#include "vantage/planner/advanced/view_validity_checker.hpp"
 #include "vantage/volume/advanced/classify.hpp"
 
 namespace vantage::test {

@@ -31,7 +31,7 @@ TEST_CASE("behind a wall: the plan looks from the other side, whatever the metho
       CAPTURE(method);
       CAPTURE(servo);
       PlanRequest request = small_request();
-      request.method.name = method;
+      request.method = method_named(method);
       request.servo.iterations = servo;
       const Plan plan = plan_next_view(wall_world(), request);
       REQUIRE(plan.best() != nullptr);
@@ -83,7 +83,7 @@ TEST_CASE("polishing makes the best views better, and the rest stays as it is") 
       CAPTURE(method);
       PlanRequest request = small_request();
       request.voxel_size_m = 0.02;
-      request.method.name = method;
+      request.method = method_named(method);
       if (seed % 2 == 1) request.search.travel = TravelCost{2, {0.3, 0.3, 0.3}};
       request.polish.views = 0;
       const Plan raw = plan_next_view(world, request);
@@ -152,7 +152,7 @@ TEST_CASE("the plan is the same at 1, 2, 3 and 8 threads") {
   for (const char* method : {"voxel", "shadow", "light"}) {
     CAPTURE(method);
     PlanRequest request = small_request();
-    request.method.name = method;
+    request.method = method_named(method);
     request.views.most = 3;
     std::optional<Plan> first;
     for (const int threads : {1, 2, 3, 8}) {
@@ -192,7 +192,7 @@ TEST_CASE("where nothing is in shadow, no view is suggested") {
   PlanRequest request = small_request();
   request.work_area = Box({-0.02, -0.02, 0.05}, {0.02, 0.02, 0.09});
   for (const char* method : {"voxel", "shadow", "light"}) {
-    request.method.name = method;
+    request.method = method_named(method);
     const Plan plan = plan_next_view(world, request);
     CHECK(plan.classified->count(VoxelState::shadow) == 0);
     CHECK(plan.best() == nullptr);
@@ -245,8 +245,18 @@ TEST_CASE("planning refuses a request that makes no sense") {
   request.candidates = HalfSpheres{{0.4, 0}, {20}, {}};
   test::expect_bad_input("candidates", "0 m", [&] { plan_next_view(wall_world(), request); });
   request = small_request();
-  request.method.name = "depth";
-  test::expect_bad_input("method", "voxel, shadow", [&] { plan_next_view(wall_world(), request); });
+  request.method = ShadowMethod{.depth_power = 17};
+  test::expect_bad_input("method", "a depth power of 17",
+                         [&] { plan_next_view(wall_world(), request); });
+  request = small_request();
+  request.method = MeshMethod{.enlarge = 0.5};
+  test::expect_bad_input("mesh", "enlarged 0.5 times",
+                         [&] { plan_next_view(wall_world(), request); });
+  request = small_request();
+  request.volume.noise.baseline_m = 0;  // also of a work area that is classified already
+  const auto classified = plan_next_view(wall_world(), small_request()).classified;
+  test::expect_bad_input("noise.baseline_m", "is 0",
+                         [&] { plan_next_view(wall_world(), classified, request); });
   request = small_request();
   request.polish.views = -1;
   test::expect_bad_input("polish", "-1", [&] { plan_next_view(wall_world(), request); });

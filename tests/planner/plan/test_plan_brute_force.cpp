@@ -46,7 +46,13 @@ TEST_CASE("on random workcells a plan's top ten are those of scoring everything,
       const WorldModel world = test::random_workcell(seed, method == "mesh");
       PlanRequest request = test::small_request();
       request.voxel_size_m = 0.02;
-      request.method = {method, seed % 2 == 0 ? 6.0 : 0.0};
+      request.method = method_named(method);
+      const double power = seed % 2 == 0 ? 6 : 0;
+      if (auto* const shadow = std::get_if<ShadowMethod>(&request.method)) {
+        shadow->depth_power = power;
+      } else if (auto* const mesh = std::get_if<MeshMethod>(&request.method)) {
+        mesh->depth_power = power;
+      }
       request.polish.views = 0;
       request.servo.iterations = seed % 3 == 0 ? 0 : 3;
       request.candidates = HalfSpheres{{0.35, 0.5}, {9}, {1, 0.3}};

@@ -25,11 +25,13 @@ WorldModel measured_wall(bool recognised) {
   return world;
 }
 
+MeshMethod& mesh_of(PlanRequest& request) {
+  return std::get<MeshMethod>(request.method);
+}
+
 PlanRequest mesh_request() {
   PlanRequest request = test::small_request();
-  request.method.name = "mesh";
-  request.method.mesh.visibility.step_px = 2;
-  request.method.mesh.image_width = 64;
+  request.method = MeshMethod{.visibility = {.step_px = 2}, .image_width = 64};
   request.servo = {3, 64};
   request.candidates = HalfSpheres{{0.45, 0.6}, {24}, {}};
   request.polish.views = 0;  // what is polished is better than any candidate's servoing
@@ -65,9 +67,9 @@ TEST_CASE("the mesh method looks at the other side, whether the wall was recogni
 TEST_CASE("a shortlist that all candidates are on finds what scoring all of them finds") {
   const WorldModel world = measured_wall(true);
   PlanRequest request = mesh_request();
-  request.method.mesh.exact_views = 0;
-  request.method.mesh.shortlist_voxel_m = 0.01;
-  request.method.mesh.shortlist = 1000;
+  mesh_of(request).exact_views = 0;
+  mesh_of(request).shortlist_voxel_m = 0.01;
+  mesh_of(request).shortlist = 1000;
   const Plan plan = plan_next_view(world, request);
   REQUIRE(plan.best() != nullptr);
   CHECK(plan.best()->score == best_exact_of_all(world, plan));
@@ -78,9 +80,9 @@ TEST_CASE("a shortlist that all candidates are on finds what scoring all of them
 TEST_CASE("what is not on the shortlist is passed over, and the best is the best of those on it") {
   const WorldModel world = measured_wall(true);
   PlanRequest request = mesh_request();
-  request.method.mesh.exact_views = 0;
-  request.method.mesh.shortlist_voxel_m = 0.01;
-  request.method.mesh.shortlist = 4;
+  mesh_of(request).exact_views = 0;
+  mesh_of(request).shortlist_voxel_m = 0.01;
+  mesh_of(request).shortlist = 4;
   request.search.ranked = 3;
   const Plan plan = plan_next_view(world, request);
   std::size_t exact = 0, pruned = 0;
@@ -104,8 +106,8 @@ TEST_CASE("a mesh plan is the same to the bit at any number of threads, shortlis
   const WorldModel world = measured_wall(false);
   for (const int exact_views : {0, 40000}) {
     PlanRequest request = mesh_request();
-    request.method.mesh.exact_views = exact_views;
-    request.method.mesh.shortlist_voxel_m = 0.01;
+    mesh_of(request).exact_views = exact_views;
+    mesh_of(request).shortlist_voxel_m = 0.01;
     const Plan one = tbb::task_arena(1).execute([&] { return plan_next_view(world, request); });
     for (const int threads : {2, 3, 8}) {
       const Plan many =

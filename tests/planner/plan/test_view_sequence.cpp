@@ -156,7 +156,7 @@ TEST_CASE("every method plans several views, none of them twice") {
   for (const std::string method : {"voxel", "shadow", "light"}) {
     CAPTURE(method);
     PlanRequest request = k_views(3);
-    request.method.name = method;
+    request.method = method_named(method);
     const Plan plan = plan_next_view(posts_world(), request);
     REQUIRE(plan.views.size() >= 2);
     std::uint64_t revealed = 0;

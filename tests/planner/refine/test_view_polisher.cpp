@@ -10,8 +10,8 @@
 #include "reference/plain_polish.hpp"
 #include "support/expect_error.hpp"
 #include "support/scene_count.hpp"
+#include "vantage/planner/advanced/make_view_scorer.hpp"
 #include "vantage/planner/advanced/view_polisher.hpp"
-#include "vantage/planner/methods.hpp"
 #include "vantage/volume/advanced/classify.hpp"
 
 namespace vantage {
@@ -176,7 +176,7 @@ TEST_CASE("on random workcells every step is feasible and better, and the end a 
       CAPTURE(seed);
       CAPTURE(method);
       const std::shared_ptr<const ViewScorer> scorer =
-          make_view_scorer({method, 6}, scene, world, camera.range());
+          make_view_scorer(method_named(method), scene, world, camera.range(), StereoNoise());
       const auto worth = [&](const Pose& pose) {
         if (validity->check(pose) != InvalidReason::none) return Score(0);
         return scorer->score(camera.moved_to(pose)).score;

@@ -8,7 +8,7 @@
 #include "planner/fake_scorer.hpp"
 #include "planner/small_area.hpp"
 #include "support/expect_error.hpp"
-#include "vantage/planner/plan.hpp"
+#include "vantage/planner/advanced/view_search.hpp"
 #include "vantage/volume/advanced/classify.hpp"
 
 namespace vantage {

@@ -64,7 +64,7 @@ std::vector<VisibilityMesh> measured_lattices(const WorldModel& world, Random& r
     options.step_px = step;
     options.holes = random.below(2) == 0 ? DepthHoles::fill : DepthHoles::unknown;
     const auto lattice = visibility_lattice({camera, test::noisy_depth(*scene, camera, random)},
-                                            test::random_workcell_area(), options);
+                                            test::random_workcell_area(), StereoNoise(), options);
     if (lattice) lattices.push_back(*lattice);
   }
   return lattices;
@@ -197,7 +197,8 @@ TEST_CASE("what a lattice sees through a known object is reported as a conflict"
   const PinholeCamera camera({64, 48, 60, 60, 31.5, 23.5},
                              Pose::looking_at({0, 0, 0.5}, {0, 0, 0}));
   const auto far = std::make_shared<const DepthImage>(64, 48, std::vector<float>(64 * 48, 1.0f));
-  const std::vector<VisibilityMesh> lattices{*visibility_lattice({camera, far}, area)};
+  const std::vector<VisibilityMesh> lattices{
+      *visibility_lattice({camera, far}, area, StereoNoise())};
   const auto cube = std::make_shared<const TriangleMesh>(
       TriangleMesh::from_box(Box({-0.02, -0.02, 0.02}, {0.02, 0.02, 0.06})));
   const WorldModel world{{{"cube", cube, {}}}, {}, {}};

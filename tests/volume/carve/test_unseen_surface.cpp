@@ -106,11 +106,12 @@ std::vector<VisibilityMesh> random_lattices(std::uint32_t seed, double subpixel_
     const PinholeCamera camera = test::random_observer(random);
     VisibilityOptions options;
     options.step_px = step;
-    options.noise.subpixel_px = subpixel_px;
+    const StereoNoise noise{.subpixel_px = subpixel_px};
     const auto depth = subpixel_px > 0
                            ? test::noisy_depth(*scene, camera, random)
                            : std::make_shared<const DepthImage>(scene->render_depth(camera));
-    if (auto lattice = visibility_lattice({camera, depth}, test::random_workcell_area(), options)) {
+    if (auto lattice =
+            visibility_lattice({camera, depth}, test::random_workcell_area(), noise, options)) {
       lattices.push_back(std::move(*lattice));
     }
   }

@@ -31,7 +31,8 @@ std::vector<VisibilityMesh> seen_lattices(std::uint32_t seed, Random& random, bo
     const PinholeCamera camera = test::random_observer(random);
     const auto depth = with_noise ? test::noisy_depth(*scene, camera, random)
                                   : std::make_shared<const DepthImage>(scene->render_depth(camera));
-    if (auto lattice = visibility_lattice({camera, depth}, test::random_workcell_area(), {})) {
+    if (auto lattice =
+            visibility_lattice({camera, depth}, test::random_workcell_area(), StereoNoise(), {})) {
       lattices.push_back(std::move(*lattice));
     }
   }

@@ -57,7 +57,7 @@ float at(const VisibilityMesh& lattice, int u, int v) {
 /// With every pixel a vertex, so that it can be asked for any of them; near enough that the work
 /// area fills the image.
 VisibilityMesh full_lattice(const PosedDepth& image, VisibilityOptions options = options_of(1)) {
-  const auto lattice = visibility_lattice(image, kArea, options);
+  const auto lattice = visibility_lattice(image, kArea, StereoNoise(), options);
   REQUIRE(lattice);
   REQUIRE(lattice->width() == kWidth);
   REQUIRE(lattice->height() == kHeight);
@@ -70,7 +70,7 @@ const PinholeCamera kNear = camera_at({0.02, -0.03, 0.25});
 
 TEST_CASE("a visibility mesh has a vertex at every step and at the region's border") {
   const auto image = image_of(kNear, tilted);
-  const auto lattice = visibility_lattice(image, kArea, options_of(8));
+  const auto lattice = visibility_lattice(image, kArea, StereoNoise(), options_of(8));
   REQUIRE(lattice);
   lattice->check();
   CHECK(lattice->columns == std::vector<float>{0, 8, 16, 24, 32, 40, 48, 56, 64, 72, 79});
@@ -89,8 +89,8 @@ TEST_CASE("the region of interest holds every pixel that can see the work area, 
     CAPTURE(n);
     const Eigen::Vector3d eye = kArea.centre() + random.uniform(0.4, 1.5) * random.direction();
     const PinholeCamera camera = camera_at(eye, kArea.centre() + random.in_cube(0.4));
-    const auto lattice =
-        visibility_lattice(image_of(camera, tilted), kArea, options_of(1 + int(random.below(12))));
+    const auto lattice = visibility_lattice(image_of(camera, tilted), kArea, StereoNoise(),
+                                            options_of(1 + int(random.below(12))));
     double u0 = kWidth, u1 = 0, v0 = kHeight, v1 = 0;
     for (int i = 0; i < 500; ++i) {
       const Eigen::Vector3d p = kArea.centre() + random.in_cube(1).cwiseProduct(0.5 * kArea.size());
@@ -114,7 +114,8 @@ TEST_CASE("the region of interest holds every pixel that can see the work area, 
 
 TEST_CASE("a camera in the work area, or beside it, has a mesh, and one that looks away has none") {
   const auto mesh = [](const Eigen::Vector3d& eye, const Eigen::Vector3d& target) {
-    return visibility_lattice(image_of(camera_at(eye, target), tilted), kArea, options_of(8));
+    return visibility_lattice(image_of(camera_at(eye, target), tilted), kArea, StereoNoise(),
+                              options_of(8));
   };
   const auto inside = mesh({0, 0, 0.1}, {0.3, 0, 0});
   REQUIRE(inside);
@@ -130,23 +131,24 @@ TEST_CASE("a camera in the work area, or beside it, has a mesh, and one that loo
 TEST_CASE("the surface moves back, away from the camera, by the noise") {
   const VisibilityOptions still = options_of(8), moved = options_of(8, 2);
   const auto image = image_of(kNear, tilted);
-  const auto exact = visibility_lattice(image, kArea, still);
-  const auto behind = visibility_lattice(image, kArea, moved);
+  const auto exact = visibility_lattice(image, kArea, StereoNoise(), still);
+  const auto behind = visibility_lattice(image, kArea, StereoNoise(), moved);
   REQUIRE(exact);
   REQUIRE(behind);
   for (std::size_t n = 0; n < exact->depth.size(); ++n) {
     const double z = double(exact->depth[n]);
     const double offset = double(behind->depth[n]) - z;
-    CHECK(std::abs(offset / (2 * moved.noise.sigma_m(z)) - 1) < 0.03);
+    CHECK(std::abs(offset / (2 * StereoNoise().sigma_m(z)) - 1) < 0.03);
   }
 }
 
 TEST_CASE("no offset, however large, more than doubles a depth") {
   auto options = options_of(8, 1e300);
-  const auto lattice = visibility_lattice(image_of(kNear, tilted), kArea, options);
+  const auto lattice = visibility_lattice(image_of(kNear, tilted), kArea, StereoNoise(), options);
   REQUIRE(lattice);
   lattice->check();
-  const auto exact = visibility_lattice(image_of(kNear, tilted), kArea, options_of(8));
+  const auto exact =
+      visibility_lattice(image_of(kNear, tilted), kArea, StereoNoise(), options_of(8));
   REQUIRE(exact);
   for (std::size_t n = 0; n < exact->depth.size(); ++n) {
     CHECK(lattice->depth[n] == doctest::Approx(2 * double(exact->depth[n])));
@@ -184,12 +186,12 @@ TEST_CASE("a hole of a few pixels at a vertex is filled from its neighbours") {
     const bool hole = std::abs(u - 40) <= 1 && std::abs(v - 32) <= 2;
     return hole ? double(kUnknown) : tilted(u, v);
   });
-  const auto lattice = visibility_lattice(image, kArea, options_of(8));
+  const auto lattice = visibility_lattice(image, kArea, StereoNoise(), options_of(8));
   REQUIRE(lattice);
   CHECK(double(at(*lattice, 40, 32)) == doctest::Approx(tilted(40, 32)).epsilon(1e-6));
   auto careful = options_of(8);
   careful.holes = DepthHoles::unknown;
-  const auto holes = visibility_lattice(image, kArea, careful);
+  const auto holes = visibility_lattice(image, kArea, StereoNoise(), careful);
   REQUIRE(holes);
   CHECK(std::isnan(at(*holes, 40, 32)));
   CHECK(at(*holes, 48, 32) == at(*lattice, 48, 32));
@@ -235,20 +237,19 @@ TEST_CASE("nothing is filled in out of reach, and without a measurement there is
   const auto uniform = [](double depth) {
     return image_of(kNear, [=](int, int) { return depth; });
   };
-  CHECK_FALSE(visibility_lattice(uniform(double(kUnknown)), kArea, {}));
-  CHECK_FALSE(visibility_lattice(uniform(0), kArea, {}));
-  CHECK_FALSE(visibility_lattice(uniform(0.05), kArea, {}));  // too near to be measured
-  CHECK(visibility_lattice(uniform(0.5), kArea, {}));
+  CHECK_FALSE(visibility_lattice(uniform(double(kUnknown)), kArea, StereoNoise(), {}));
+  CHECK_FALSE(visibility_lattice(uniform(0), kArea, StereoNoise(), {}));
+  CHECK_FALSE(visibility_lattice(uniform(0.05), kArea, StereoNoise(), {}));  // too near
+  CHECK(visibility_lattice(uniform(0.5), kArea, StereoNoise(), {}));
 }
 
 TEST_CASE("what is measured beyond the far limit was seen through up to there") {
   const double far = kNear.range().far_m;
-  auto options = options_of(1);
-  options.noise.subpixel_px = 0;
+  const StereoNoise none{.subpixel_px = 0};
   for (const double depth : {far, far + 0.01, 2 * far, 60.0}) {
     CAPTURE(depth);
-    const auto mesh =
-        visibility_lattice(image_of(kNear, [=](int, int) { return depth; }), kArea, options);
+    const auto mesh = visibility_lattice(image_of(kNear, [=](int, int) { return depth; }), kArea,
+                                         none, options_of(1));
     REQUIRE(mesh);
     for (const float z : mesh->depth) CHECK(z == doctest::Approx(far));
   }
@@ -267,7 +268,7 @@ TEST_CASE("a mesh frees no space out of reach of what was measured") {
     auto options = options_of(1 + int(random.below(8)));
     options.fill_reach_px = 4;
     const auto lattice = visibility_lattice({camera, std::make_shared<const DepthImage>(depth)},
-                                            test::random_workcell_area(), options);
+                                            test::random_workcell_area(), StereoNoise(), options);
     if (!lattice) continue;
     // A vertex has a depth only within reach of a measured one, and none that is farther than all
     // of those.
@@ -293,7 +294,7 @@ TEST_CASE("images of a single row or column have no cells, and one next to them 
                                Pose::looking_at({0, 0, 1}, {0, 0, 0}));
     const std::vector<float> depth(std::size_t(width) * std::size_t(height), 0.8f);
     return visibility_lattice({camera, std::make_shared<const DepthImage>(width, height, depth)},
-                              kArea, {});
+                              kArea, StereoNoise(), {});
   };
   CHECK_FALSE(one(1, 9));
   CHECK_FALSE(one(9, 1));
@@ -306,7 +307,7 @@ TEST_CASE("visibility options are checked by their keys") {
     change(options);
     test::expect_bad_input(key, expected, [&] { options.check(); });
     test::expect_bad_input(key, expected, [&] {
-      std::ignore = visibility_lattice(image_of(kNear, tilted), kArea, options);
+      std::ignore = visibility_lattice(image_of(kNear, tilted), kArea, StereoNoise(), options);
     });
   };
   CHECK_NOTHROW(VisibilityOptions{}.check());
@@ -318,7 +319,10 @@ TEST_CASE("visibility options are checked by their keys") {
   }
   for (const double bad : {-1.0, std::nan(""), std::numeric_limits<double>::infinity()}) {
     refused("offset_sigmas", "expected a finite number", [&](auto& o) { o.offset_sigmas = bad; });
-    refused("noise.focal_px", "expected a finite", [&](auto& o) { o.noise.focal_px = bad; });
+    const StereoNoise noise{.focal_px = bad};
+    test::expect_bad_input("noise.focal_px", "expected a finite", [&] {
+      std::ignore = visibility_lattice(image_of(kNear, tilted), kArea, noise);
+    });
   }
 }
 

@@ -88,14 +88,13 @@ void VisibilityOptions::check() const {
     throw bad_input("offset_sigmas",
                     fmt::format("is {}; expected a finite number, 0 or above", offset_sigmas));
   }
-  VolumeOptions volume;
-  volume.noise = noise;
-  volume.check();
 }
 
 std::optional<VisibilityMesh> visibility_lattice(const PosedDepth& image, const Box& work_area,
+                                                 const StereoNoise& noise,
                                                  const VisibilityOptions& options) {
   options.check();
+  noise.check();
   const Region region = region_of_interest(image.camera, work_area);
   if (!region.columns || !region.rows) return std::nullopt;
   VisibilityMesh lattice{image.camera,
@@ -105,7 +104,7 @@ std::optional<VisibilityMesh> visibility_lattice(const PosedDepth& image, const 
   const int reach_px = options.holes == DepthHoles::fill ? options.fill_reach_px : 0;
   // σ(z) = σ(1) z², so that in inverse depth the noise is the same everywhere.
   fill_depths(volume::detail::FilledDepth(image, reach_px),
-              options.offset_sigmas * options.noise.sigma_m(1), lattice);
+              options.offset_sigmas * noise.sigma_m(1), lattice);
   if (!has_any_cell(lattice)) return std::nullopt;
   return lattice;
 }

@@ -16,11 +16,15 @@ void check_number(const char* key, double value, bool valid, const char* expecte
 
 }  // namespace
 
+void StereoNoise::check() const {
+  check_number("noise.focal_px", focal_px, focal_px > 0, "above 0");
+  check_number("noise.baseline_m", baseline_m, baseline_m > 0, "above 0");
+  check_number("noise.subpixel_px", subpixel_px, subpixel_px >= 0, "0 or above");
+}
+
 void VolumeOptions::check() const {
   check_number("band_sigmas", band_sigmas, band_sigmas >= 0, "0 or above");
-  check_number("noise.focal_px", noise.focal_px, noise.focal_px > 0, "above 0");
-  check_number("noise.baseline_m", noise.baseline_m, noise.baseline_m > 0, "above 0");
-  check_number("noise.subpixel_px", noise.subpixel_px, noise.subpixel_px >= 0, "0 or above");
+  noise.check();
 }
 
 }  // namespace vantage

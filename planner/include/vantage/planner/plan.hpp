@@ -6,10 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "vantage/planner/advanced/servo_refiner.hpp"
-#include "vantage/planner/advanced/view_polisher.hpp"
-#include "vantage/planner/advanced/view_search.hpp"
 #include "vantage/planner/methods.hpp"
+#include "vantage/planner/plan_options.hpp"
+#include "vantage/planner/scored_views.hpp"
 #include "vantage/planner/view_candidates.hpp"
 #include "vantage/planner/view_constraints.hpp"
 #include "vantage/raycore/camera.hpp"
@@ -21,17 +20,6 @@
 
 namespace vantage {
 
-/// How many views are to be planned, one after the other, and when it is enough.
-struct ViewSequenceOptions {
-  int most = 1;
-  double min_gain_m3 = 0;     ///< a further view that reveals less is not worth it
-  double min_gain_share = 0;  ///< the same as a share of all shadow, 0 to 1
-
-  /// @throws Error bad_input unless 1 <= most <= 1000, and for gains that are negative or not
-  /// finite, or a share above 1.
-  VANTAGE_API void check() const;
-};
-
 /// What to plan for.
 struct PlanRequest {
   Box work_area;
@@ -40,12 +28,14 @@ struct PlanRequest {
   double voxel_size_m = 0.009375;  ///< the thesis' smallest voxel
   CandidateSet candidates = production_views();
   ViewConstraints constraints = {};
-  MethodOptions method = {};
+  Method method = VoxelMethod{};
   ServoOptions servo = {};
   PolishOptions polish = {};
   SearchOptions search = {};
   ViewSequenceOptions views = {};
-  VolumeOptions volume = {};  ///< how the work area is classified, and what hides from a new view
+  /// How the work area is classified, what hides from a new view, and how noisy depths are: its
+  /// `noise` is the only noise model of a request, and a D435's unless you say your sensor's.
+  VolumeOptions volume = {};
 };
 
 /// One of the views to take, in their order.
@@ -93,8 +83,8 @@ struct Plan {
 /// that the views before left. Each further view is polished, too, which only adds to its gain.
 ///
 /// Runs in the caller's task arena; the plan is the same at any number of threads, but for times.
-/// @throws Error bad_input as `classify`, `PinholeCamera`, `view_candidates`, `make_view_scorer`
-/// and the options' checks do.
+/// @throws Error bad_input as `classify`, `PinholeCamera`, `view_candidates`, `seen_world` and the
+/// options' checks do.
 VANTAGE_API Plan plan_next_view(const WorldModel& world, const PlanRequest& request,
                                 const StopToken& stop = {});
 

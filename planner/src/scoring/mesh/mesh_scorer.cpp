@@ -126,7 +126,7 @@ struct MeshScorer::Impl {
 
 MeshScorer::MeshScorer(const SeenWorld& world, const DepthRange& range, double depth_power,
                        int image_width, MeshWeight weight) {
-  MeshOptions{.image_width = image_width}.check();
+  MeshMethod{.image_width = image_width}.check();
   const std::optional<TriangleMesh> shell = shell_of(world);
   const bool by_volume = weight == MeshWeight::volume;
   impl_.reset(new Impl{planner::detail::UnseenCells(world),

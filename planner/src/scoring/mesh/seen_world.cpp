@@ -7,6 +7,7 @@
 #include "vantage/raycore/error.hpp"
 #include "vantage/volume/advanced/carve.hpp"
 #include "vantage/volume/advanced/shadow_filter.hpp"
+#include "vantage/volume/advanced/visibility.hpp"
 
 namespace vantage {
 namespace {
@@ -29,9 +30,9 @@ KnownObject enlarged(const KnownObject& object, double factor) {
 }
 
 /// Three voxels make the cube's edge: no fewer can be opened with. Work areas may be huge.
-double opening_voxel_m(const Box& work_area, const MeshOptions& options) {
+double opening_voxel_m(const Box& work_area, const MeshMethod& method) {
   constexpr double kMaxVoxels = 1 << 24;
-  return std::max(options.opening_m / 3, std::cbrt(work_area.volume_m3() / kMaxVoxels));
+  return std::max(method.opening_m / 3, std::cbrt(work_area.volume_m3() / kMaxVoxels));
 }
 
 void expect_depth(const WorldModel& world) {
@@ -45,42 +46,23 @@ void expect_depth(const WorldModel& world) {
 
 }  // namespace
 
-void MeshOptions::check() const {
-  visibility.check();
-  if (!std::isfinite(opening_m) || opening_m < 0) {
-    throw bad_input(
-        "mesh", fmt::format("an opening of {} m; expected a finite length, 0 or above", opening_m));
-  }
-  if (!(enlarge >= 1 && enlarge <= 10)) {  // also NaN
-    throw bad_input("mesh",
-                    fmt::format("known objects are enlarged {} times; expected 1 to 10", enlarge));
-  }
-  if (image_width < 16 || image_width > 16384) {
-    throw bad_input("mesh", fmt::format("images of {} pixels; expected 16 to 16384", image_width));
-  }
-  if (exact_views < 0 || shortlist < 1 || !(shortlist_voxel_m > 0)) {
-    throw bad_input("mesh", fmt::format("a shortlist of {} in voxels of {} m from {} views on; "
-                                        "expected at least 1, a positive size and at least 0",
-                                        shortlist, shortlist_voxel_m, exact_views));
-  }
-}
-
-SeenWorld seen_world(const WorldModel& world, const Box& work_area, const MeshOptions& options) {
-  options.check();
+SeenWorld seen_world(const WorldModel& world, const Box& work_area, const StereoNoise& noise,
+                     const MeshMethod& method) {
+  method.check();
   expect_depth(world);
   SeenWorld seen{work_area, {}, {{}, world.static_structures, {}}};
   for (const KnownObject& object : world.objects) {
-    seen.known.objects.push_back(enlarged(object, options.enlarge));
+    seen.known.objects.push_back(enlarged(object, method.enlarge));
   }
   for (const DepthCamera& camera : world.cameras) {
     if (camera.depth == nullptr) continue;
     const PosedDepth image(camera.camera, camera.depth);
-    if (auto lattice = visibility_lattice(image, work_area, options.visibility)) {
+    if (auto lattice = visibility_lattice(image, work_area, noise, method.visibility)) {
       seen.lattices.push_back(std::move(*lattice));
     }
   }
-  if (options.opening_m > 0) {
-    const auto geometry = GridGeometry::covering(work_area, opening_voxel_m(work_area, options));
+  if (method.opening_m > 0) {
+    const auto geometry = GridGeometry::covering(work_area, opening_voxel_m(work_area, method));
     seen.opened = morphological_open(*carve(seen.lattices, geometry, seen.known), 1);
   }
   return seen;

@@ -53,17 +53,15 @@ void expect_same(const Pick& a, const Pick& b) {
 }  // namespace
 
 TEST_CASE("methods by their names, with the power of the depth in it") {
-  CHECK(named_method("voxel").options.name == "voxel");
+  CHECK(named_method("voxel").method == Method(VoxelMethod{}));
   CHECK(named_method("shadow").name == "shadowD6");
   const NamedMethod d3 = named_method("shadowD3");
-  CHECK(d3.options.name == "shadow");
-  CHECK(d3.options.depth_power == 3);
+  CHECK(d3.method == Method(ShadowMethod{3}));
   CHECK(named_method("shadowD2.50").name == "shadowD2.5");
   CHECK(named_method("mesh").name == "mesh");
-  CHECK(named_method("meshD2").options.name == "mesh");
-  CHECK(named_method("meshD2").options.depth_power == 2);
-  CHECK(named_method("meshD2").options.mesh.weight == MeshWeight::depth);
-  CHECK(named_method("mesh").options.mesh.weight == MeshWeight::volume);
+  CHECK(named_method("meshD2").method ==
+        Method(MeshMethod{.weight = MeshWeight::depth, .depth_power = 2}));
+  CHECK(named_method("mesh").method == Method(MeshMethod{}));
   for (const char* name :
        {"", "shadowD", "shadowDx", "shadowD17", "shadowD-1", "meshD", "lightD3", "Voxel"}) {
     CAPTURE(name);

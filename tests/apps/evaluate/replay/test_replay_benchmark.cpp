@@ -137,7 +137,7 @@ TEST_CASE("a method picks what a plan picks that has the frames' poses as its on
     const WorldModel two = world_of(input, {pair.frames[0], pair.frames[1]});
     for (std::size_t m = 0; m < settings.methods.size(); ++m) {
       CAPTURE(settings.methods[m].name);
-      request.method = settings.methods[m].options;
+      request.method = settings.methods[m].method;
       const Plan plan = plan_next_view(two, request);
       REQUIRE(plan.best() != nullptr);
       const ReplayView& pick = pair.views[pair.picks[m]];

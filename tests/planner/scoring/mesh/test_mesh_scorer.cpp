@@ -128,10 +128,10 @@ TEST_CASE("on random workcells a score is the sum over pixels, and a look tells 
   for (std::uint32_t seed = 0; seed < test::scene_count(20); ++seed) {
     CAPTURE(seed);
     Random random(seed);
-    MeshOptions options;
+    MeshMethod options;
     options.visibility.step_px = 1 + int(random.below(4));
-    const SeenWorld world =
-        seen_world(test::random_workcell(seed, true), test::random_workcell_area(), options);
+    const SeenWorld world = seen_world(test::random_workcell(seed, true),
+                                       test::random_workcell_area(), StereoNoise(), options);
     const double power = std::array{0.0, 3.0, 6.0, 2.5}[seed % 4];
     const MeshScorer scorer(world, kRange, power, kSmall.width);
     for (int i = 0; i < 6; ++i) {
@@ -183,11 +183,11 @@ TEST_CASE(
   const auto score = [&](double opening_m) {
     WorldModel world;
     world.cameras.push_back({"above", camera, std::make_shared<const DepthImage>(64, 48, depths)});
-    MeshOptions options;
+    MeshMethod options;
     options.visibility.step_px = 1;
     options.visibility.offset_sigmas = 0;
     options.opening_m = opening_m;
-    const MeshScorer scorer(seen_world(world, area, options), kRange, 6, 64);
+    const MeshScorer scorer(seen_world(world, area, StereoNoise(), options), kRange, 6, 64);
     return double(exact_score(scorer, view_at({0.6, 0, 0.5}, {0, 0, 0.05}))) * scorer.unit();
   };
   const double false_shadow = score(0);
@@ -210,7 +210,7 @@ TEST_CASE("known objects are enlarged about their middle, static structures are 
   world.static_structures.push_back({"shelf", shelf, {}});
   world.objects[0].T_world_object = Pose::from_rotation(
       Eigen::AngleAxisd(0.5, Eigen::Vector3d::UnitZ()).toRotationMatrix(), {0.01, 0.02, 0.03});
-  const SeenWorld seen = seen_world(world, test::random_workcell_area());
+  const SeenWorld seen = seen_world(world, test::random_workcell_area(), StereoNoise());
   REQUIRE(seen.known.objects.size() == 1);
   const KnownObject& before = world.objects[0];
   const KnownObject& after = seen.known.objects[0];
@@ -231,10 +231,10 @@ TEST_CASE("noise is filtered out in a hall, too, by larger voxels") {
   WorldModel world = test::wall_world();
   world.cameras[0].depth =
       std::make_shared<const DepthImage>(64, 48, std::vector<float>(std::size_t(64 * 48), 1.5f));
-  const SeenWorld hall = seen_world(world, Box({-40, -40, 0}, {40, 40, 8}));
+  const SeenWorld hall = seen_world(world, Box({-40, -40, 0}, {40, 40, 8}), StereoNoise());
   CHECK(hall.opened->geometry().voxel_count() <= 17'000'000);
   CHECK(hall.opened->count(VoxelState::shadow) > 16'000'000);
-  const SeenWorld bench = seen_world(world, test::random_workcell_area());
+  const SeenWorld bench = seen_world(world, test::random_workcell_area(), StereoNoise());
   CHECK(bench.opened->geometry().voxel_size_m() == doctest::Approx(0.025 / 3));
 }
 
@@ -242,8 +242,8 @@ TEST_CASE("the mesh method says what it cannot do without") {
   const WorldModel blind = test::wall_world();
   const Box area = test::random_workcell_area();
   test::expect_bad_input("method", "none of the 1 cameras has one",
-                         [&] { (void)seen_world(blind, area); });
-  const auto refused = [&](const MeshOptions& options, std::string_view part) {
+                         [&] { (void)seen_world(blind, area, StereoNoise()); });
+  const auto refused = [&](const MeshMethod& options, std::string_view part) {
     test::expect_bad_input("mesh", part, [&] { options.check(); });
   };
   refused({.opening_m = -1}, "an opening of -1 m");

@@ -136,7 +136,7 @@ TEST_CASE("on random workcells the volume is the sum over pixels, and bounds hol
     CAPTURE(seed);
     Random random(seed);
     const SeenWorld world =
-        seen_world(test::random_workcell(seed, true), test::random_workcell_area());
+        seen_world(test::random_workcell(seed, true), test::random_workcell_area(), StereoNoise());
     const MeshScorer scorer = by_volume(world, 64);
     for (int i = 0; i < 5; ++i) {
       const Eigen::Vector3d eye(random.uniform(-0.5, 0.5), random.uniform(-0.5, 0.5),

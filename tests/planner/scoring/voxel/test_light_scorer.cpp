@@ -4,7 +4,7 @@
 #include "planner/small_area.hpp"
 #include "support/expect_error.hpp"
 #include "vantage/planner/advanced/light_scorer.hpp"
-#include "vantage/planner/methods.hpp"
+#include "vantage/planner/advanced/make_view_scorer.hpp"
 #include "vantage/volume/advanced/classify.hpp"
 
 namespace vantage {
@@ -78,17 +78,18 @@ TEST_CASE("the light method's flaw: what nobody knows casts no shade") {
   CHECK(dark.scorer.upper_bound(view_from({-0.8, 0, 0.1})) == 0);
 }
 
-TEST_CASE("every method has a name by which it is made, and others are refused") {
+TEST_CASE("a method's scorer goes by the method's name, and options without sense are refused") {
   WorldModel measured = lit_cube();
   DepthCamera& camera = measured.cameras[0];
   camera.depth =
       std::make_shared<const DepthImage>(known_scene(measured)->render_depth(camera.camera));
   const Lit lit(measured, test::kSmallArea);
   for (const std::string& name : method_names()) {
-    CHECK(make_view_scorer({name}, lit.scene, lit.world, {0.1, 3})->name() == name);
+    CHECK(make_view_scorer(method_named(name), lit.scene, lit.world, {0.1, 3}, StereoNoise())
+              ->name() == name);
   }
-  test::expect_bad_input("method", "voxel, shadow, mesh, light", [&] {
-    make_view_scorer({"voxels"}, lit.scene, lit.world, {0.1, 3});
+  test::expect_bad_input("method", "a depth power of -1", [&] {
+    make_view_scorer(ShadowMethod{-1}, lit.scene, lit.world, {0.1, 3}, StereoNoise());
   });
 }
 

@@ -28,6 +28,10 @@ struct StereoNoise {
   double sigma_m(double depth_m) const {
     return depth_m * depth_m * subpixel_px / (focal_px * baseline_m);
   }
+
+  /// @throws Error bad_input unless every number is finite, focal length and baseline positive, the
+  /// noise not negative.
+  VANTAGE_API void check() const;
   bool operator==(const StereoNoise&) const = default;
 };
 
@@ -42,12 +46,16 @@ struct VolumeOptions {
   /// The band around a measured surface is max(voxel size, band_sigmas · σ(z)) thick: with 4, two
   /// sigmas to either side.
   double band_sigmas = 4;
+
+  /// Of every camera's depths, and the only place where a request says it: classification, the mesh
+  /// method and whatever else reckons with noise take it from here. It is a D435's unless you say
+  /// your sensor's.
   StereoNoise noise = {};
 
   bool anti_aliased() const { return anti_alias.value_or(occluders == OccluderMode::voxels); }
 
-  /// @throws Error bad_input unless every number is finite, focal length and baseline positive, the
-  /// others not negative.
+  /// @throws Error bad_input unless the sigmas are finite and not negative, and as
+  /// `StereoNoise::check` does.
   VANTAGE_API void check() const;
   bool operator==(const VolumeOptions&) const = default;
 };

@@ -5,6 +5,7 @@
 
 #include "vantage/planner/advanced/planning_scene.hpp"
 #include "vantage/planner/advanced/visible_points.hpp"
+#include "vantage/planner/methods.hpp"
 #include "vantage/planner/view_scorer.hpp"
 #include "vantage/raycore/export.hpp"
 #include "vantage/raycore/world_model.hpp"
@@ -24,7 +25,7 @@ class VANTAGE_API LightScorer final : public ViewScorer {
  public:
   LightScorer(const PlanningScene& scene, const WorldModel& world);
 
-  std::string_view name() const noexcept override { return "light"; }
+  std::string_view name() const noexcept override { return LightMethod::kName; }
   double unit() const noexcept override { return area_per_point_m2_; }
   std::string_view unit_name() const noexcept override { return "m²"; }
   Score upper_bound(const PinholeCamera& view) const override;

@@ -5,47 +5,16 @@
 #include <vector>
 
 #include "vantage/planner/advanced/shadow_view.hpp"
+#include "vantage/planner/methods.hpp"
 #include "vantage/planner/view_scorer.hpp"
 #include "vantage/raycore/advanced/visibility_mesh.hpp"
 #include "vantage/raycore/box.hpp"
 #include "vantage/raycore/export.hpp"
 #include "vantage/raycore/world_model.hpp"
-#include "vantage/volume/advanced/visibility.hpp"
 #include "vantage/volume/state_grid.hpp"
+#include "vantage/volume/volume_options.hpp"
 
 namespace vantage {
-
-/// What a pixel counts that meets what no camera saw through at depth D.
-enum class MeshWeight {
-  depth,   ///< D^power (thesis 7.4.5, D6): surfaces, the far ones more
-  volume,  ///< the volume behind, to where the shadow ends or a known object is; the power is not
-           ///< used
-};
-
-/// How the mesh method looks at the world.
-struct MeshOptions {
-  VisibilityOptions visibility = {};
-  /// What is unseen, but a cube of this edge does not fit in, is false shadow that noise made, and
-  /// counts as seen; metres. 0: all that is unseen counts. In work areas of more than 17 million
-  /// voxels of a third of it, the cube is larger.
-  double opening_m = 0.025;
-  /// Known objects, about their middle, for what is imprecise (thesis 7.4.4).
-  double enlarge = 1.2;
-  MeshWeight weight = MeshWeight::volume;
-  int image_width = 160;  ///< of the images that views are scored by; their height follows
-
-  /// Up to so many views, servo iterations included, all are scored by rays. Of more, the voxel
-  /// method in a carved grid (by depth: the shadow method) picks a shortlist, and only that is
-  /// scored: the best view may be missed then.
-  int exact_views = 40000;
-  int shortlist = 100;
-  double shortlist_voxel_m = 0.0047;
-
-  /// @throws Error bad_input unless opening_m is finite and not negative, 1 <= enlarge <= 10, 16 <=
-  /// image_width <= 16384, 0 <= exact_views, 1 <= shortlist and 0 < shortlist_voxel_m, and as
-  /// `VisibilityOptions::check` does.
-  VANTAGE_API void check() const;
-};
 
 /// The work area as depth images alone show it (thesis 7.4.2 to 7.4.4).
 struct SeenWorld {
@@ -57,10 +26,11 @@ struct SeenWorld {
   std::shared_ptr<const StateGrid> opened = {};
 };
 
+/// @param noise of the cameras' depths.
 /// @throws Error bad_input if no camera has a depth image, or an object has no mesh, and as
-/// `MeshOptions::check` does.
+/// `MeshMethod::check` and `StereoNoise::check` do.
 VANTAGE_API SeenWorld seen_world(const WorldModel& world, const Box& work_area,
-                                 const MeshOptions& options = {});
+                                 const StereoNoise& noise, const MeshMethod& method = {});
 
 /// The mesh method (thesis 7.4): the sum of (1 - v) · D^power over the pixels whose ray meets what
 /// no camera saw through first, at depth D metres within the view's range. v is the surface's
@@ -72,7 +42,7 @@ VANTAGE_API SeenWorld seen_world(const WorldModel& world, const Box& work_area,
 /// end. That is the volume in the pixel that may be revealed: views from different distances
 /// compare by it.
 ///
-/// Views are scored by images of `MeshOptions::image_width`, with the view's own field of view.
+/// Views are scored by images of `MeshMethod::image_width`, with the view's own field of view.
 /// Every pixel's (1 - v) (D / far)^power is rounded to a multiple of 2^-35, so that sums are exact.
 /// Also the servo's view: a pixel is shadow to it if v is below a half.
 class VANTAGE_API MeshScorer final : public ViewScorer, public ShadowView {
@@ -80,10 +50,10 @@ class VANTAGE_API MeshScorer final : public ViewScorer, public ShadowView {
   /// @param range of the views that are to be scored: `unit()` depends on it.
   /// @throws Error bad_input unless 0 <= depth_power <= 16 and 16 <= image_width <= 16384.
   MeshScorer(const SeenWorld& world, const DepthRange& range, double depth_power,
-             int image_width = MeshOptions().image_width, MeshWeight weight = MeshWeight::depth);
+             int image_width = MeshMethod().image_width, MeshWeight weight = MeshWeight::depth);
   ~MeshScorer() override;
 
-  std::string_view name() const noexcept override { return "mesh"; }
+  std::string_view name() const noexcept override { return MeshMethod::kName; }
   double unit() const noexcept override;
   /// Metres to the power for `MeshWeight::depth`, cubic metres for `MeshWeight::volume`: of pixels'
   /// depths, so that both depend on the width of the image.

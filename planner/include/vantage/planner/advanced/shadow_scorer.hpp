@@ -6,6 +6,7 @@
 
 #include "vantage/planner/advanced/planning_scene.hpp"
 #include "vantage/planner/advanced/shadow_view.hpp"
+#include "vantage/planner/methods.hpp"
 #include "vantage/planner/view_scorer.hpp"
 #include "vantage/raycore/export.hpp"
 
@@ -23,7 +24,7 @@ class VANTAGE_API ShadowScorer final : public ViewScorer, public ShadowView {
   ShadowScorer(const PlanningScene& scene, const DepthRange& range, double depth_power);
   ~ShadowScorer() override;
 
-  std::string_view name() const noexcept override { return "shadow"; }
+  std::string_view name() const noexcept override { return ShadowMethod::kName; }
   double unit() const noexcept override;
   std::string_view unit_name() const noexcept override { return "m^power · pixels"; }
   Score upper_bound(const PinholeCamera& view) const override;

@@ -1,14 +1,13 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <cstdint>
 #include <memory>
 #include <optional>
-#include <string_view>
 #include <vector>
 
-#include "vantage/planner/advanced/travel_cost.hpp"
-#include "vantage/planner/view_constraints.hpp"
+#include "vantage/planner/advanced/view_validity_checker.hpp"
+#include "vantage/planner/plan_options.hpp"
+#include "vantage/planner/scored_views.hpp"
 #include "vantage/planner/view_scorer.hpp"
 #include "vantage/raycore/camera.hpp"
 #include "vantage/raycore/export.hpp"
@@ -16,32 +15,6 @@
 #include "vantage/raycore/stop_token.hpp"
 
 namespace vantage {
-
-/// Which views are polished after a search, and how.
-struct PolishOptions {
-  int views = 2;          ///< so many of the best; 0: none
-  int image_width = 160;  ///< of the images that tries are scored on, at most the camera's
-
-  /// @throws Error bad_input unless 0 <= views <= 1000 and 16 <= image_width <= 16384.
-  VANTAGE_API void check() const;
-};
-
-/// The four ways to move: the first two take the camera around the shadow's middle, at the same
-/// distance and with the middle at the same place on its image.
-enum class PolishMove : std::uint8_t {
-  around,  ///< about the vertical line through the middle; positive: counterclockwise from above
-  over,    ///< up, if positive; never past the point straight above
-  pan,     ///< turned on the spot about the image's vertical; positive: to the right
-  tilt,    ///< about its horizontal; positive: up
-};
-VANTAGE_API std::string_view to_text(PolishMove move);
-
-/// One step on the way to a better view.
-struct PolishStep {
-  PolishMove move = PolishMove::around;
-  double by_rad = 0;
-  Pose T_world_cam;  ///< after it
-};
 
 /// Looks for a better view around a good one: a compass search (R. Hooke and T. Jeeves, "Direct
 /// search solution of numerical and statistical problems", 1961). What a search over few candidates

@@ -5,6 +5,7 @@
 
 #include "vantage/planner/advanced/planning_scene.hpp"
 #include "vantage/planner/advanced/visible_points.hpp"
+#include "vantage/planner/methods.hpp"
 #include "vantage/planner/view_scorer.hpp"
 #include "vantage/raycore/export.hpp"
 
@@ -16,7 +17,7 @@ class VANTAGE_API VoxelScorer final : public ViewScorer {
  public:
   explicit VoxelScorer(const PlanningScene& scene);
 
-  std::string_view name() const noexcept override { return "voxel"; }
+  std::string_view name() const noexcept override { return VoxelMethod::kName; }
   double unit() const noexcept override { return voxel_volume_m3_; }
   std::string_view unit_name() const noexcept override { return "m³"; }
   Score upper_bound(const PinholeCamera& view) const override;

@@ -1,0 +1,78 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "vantage/planner/view_candidates.hpp"
+#include "vantage/planner/view_constraints.hpp"
+#include "vantage/planner/view_scorer.hpp"
+#include "vantage/raycore/export.hpp"
+#include "vantage/raycore/pose.hpp"
+
+namespace vantage {
+
+// What came of the candidates of a search, and of the views that a plan chose from them.
+
+/// What came of one servo iteration.
+enum class ServoMove : std::uint8_t {
+  start,   ///< the candidate itself
+  aim,     ///< turned towards the middle of the shadow
+  back,    ///< and moved back, because the shadow touched opposite borders
+  closer,  ///< and moved closer, because the shadow was small
+  polish,  ///< none of the servo's: where a `ViewPolisher` led from the best iteration
+};
+VANTAGE_API std::string_view to_text(ServoMove move);
+
+struct ServoStep {
+  Pose T_world_cam;
+  ServoMove move = ServoMove::start;
+  std::optional<Score> score = {};  ///< exact, where the servo's look told it
+};
+
+/// The four ways in which polishing moves a camera: the first two take it around the shadow's
+/// middle, at the same distance and with the middle at the same place on its image.
+enum class PolishMove : std::uint8_t {
+  around,  ///< about the vertical line through the middle; positive: counterclockwise from above
+  over,    ///< up, if positive; never past the point straight above
+  pan,     ///< turned on the spot about the image's vertical; positive: to the right
+  tilt,    ///< about its horizontal; positive: up
+};
+VANTAGE_API std::string_view to_text(PolishMove move);
+
+/// One step on the way to a better view.
+struct PolishStep {
+  PolishMove move = PolishMove::around;
+  double by_rad = 0;
+  Pose T_world_cam;  ///< after it
+};
+
+/// A candidate and what came of it.
+struct ScoredCandidate {
+  ViewCandidate view;
+  InvalidReason rejected = InvalidReason::none;
+  ScoreBound score = {};    ///< the best of its servo iterations, before travel; at most that
+  int servo_iteration = 0;  ///< of the best one; of use if the score is exact
+};
+
+/// One servo iteration of a candidate.
+struct ScoredStep {
+  ServoStep step;
+  ScoreBound score;
+};
+
+/// One of the best candidates.
+struct RankedView {
+  std::size_t candidate = 0;  ///< index
+  Pose T_world_cam;           ///< of its best servo iteration, the first one among equals;
+                              ///< after `polish`, where that led
+  int servo_iteration = 0;
+  Score score = 0;
+  Score utility = 0;                                  ///< the score, less what the journey costs
+  std::optional<std::uint64_t> revealed_voxels = {};  ///< what the voxel method says; set by a plan
+  std::vector<PolishStep> polish = {};                ///< from the servo iteration on; by a plan
+};
+
+}  // namespace vantage

@@ -1,0 +1,81 @@
+#include "vantage/planner/advanced/view_validity_checker.hpp"
+
+#include <cmath>
+
+namespace vantage {
+namespace {
+
+bool in_reach(const ViewConstraints& limits, const Eigen::Vector3d& centre) {
+  if (limits.reach) {
+    const double distance = (centre - limits.reach->base_m).norm();
+    if (distance < limits.reach->min_m || distance > limits.reach->max_m) return false;
+  }
+  if (limits.reach_box && !limits.reach_box->contains(centre)) return false;
+  return limits.reach_map == nullptr || limits.reach_map->contains(centre);
+}
+
+bool in_cone(const ViewCone& cone, const Eigen::Vector3d& forward) {
+  // A view along the cone's very border is allowed, however it is rounded.
+  return forward.dot(cone.axis.stableNormalized()) >= std::cos(cone.half_angle_rad) - 1e-12;
+}
+
+/// How high the lowest point of the camera's body is.
+double lowest_m(const ViewConstraints& limits, const Pose& T_world_cam) {
+  if (const BoxBody* body = std::get_if<BoxBody>(&limits.body)) {
+    const double reach_m = T_world_cam.rotation().row(2).cwiseAbs() * (0.5 * body->box.size());
+    return (T_world_cam * body->box.centre()).z() - reach_m;
+  }
+  const SphereBody* sphere = std::get_if<SphereBody>(&limits.body);
+  return T_world_cam.translation().z() - (sphere == nullptr ? 0 : sphere->radius_m);
+}
+
+/// Whether the camera's body is closer to a surface or the floor than the clearance, or has one
+/// inside, or is inside itself.
+bool too_close(const ViewConstraints& limits, const Scene& occupied, const Pose& T_world_cam) {
+  if (lowest_m(limits, T_world_cam) < limits.clearance_m) return true;
+  if (const BoxBody* body = std::get_if<BoxBody>(&limits.body)) {
+    // The camera's centre is known to be outside of everything; a box beside it may not be.
+    return occupied.closer_than(limits.clearance_m, body->box, T_world_cam) ||
+           (!body->box.contains(Eigen::Vector3d::Zero()) &&
+            occupied.encloses(T_world_cam * body->box.centre()));
+  }
+  const SphereBody* sphere = std::get_if<SphereBody>(&limits.body);
+  const double distance_m = limits.clearance_m + (sphere == nullptr ? 0 : sphere->radius_m);
+  return distance_m > 0 && occupied.closer_than(distance_m, T_world_cam.translation());
+}
+
+bool too_close_to_shadow(const PlanningScene& scene, double near_m, const Eigen::Vector3d& centre) {
+  const Scene& surfaces = scene.surfaces();
+  if (!surfaces.closer_than(near_m, centre)) return false;  // as nearly always
+  return surfaces.closer_than(near_m, centre, scene.shadow_object()) ||
+         surfaces.closer_than(near_m, centre, scene.covered_object());
+}
+
+}  // namespace
+
+ViewValidityChecker::ViewValidityChecker(const ViewConstraints& constraints, PlanningScene scene,
+                                         const DepthRange& range)
+    : constraints_(constraints), scene_(std::move(scene)), range_(range) {
+  constraints_.check();
+}
+
+InvalidReason ViewValidityChecker::check(const Pose& T_world_cam) const {
+  const Eigen::Vector3d& centre = T_world_cam.translation();
+  if (centre.z() <= 0) return InvalidReason::below_the_floor;
+  if (!in_reach(constraints_, centre)) return InvalidReason::out_of_reach;
+  if (constraints_.view_cone && !in_cone(*constraints_.view_cone, T_world_cam.rotation().col(2))) {
+    return InvalidReason::outside_the_view_cone;
+  }
+  const auto voxel = scene_.grid().geometry().voxel_at(centre);
+  const VoxelState state = voxel ? scene_.grid().at(*voxel) : VoxelState::free;
+  // Structures reach beyond the grid, and may be thinner than its voxels.
+  if (state == VoxelState::occupied || scene_.occluders().encloses(centre)) {
+    return InvalidReason::inside_occupied_volume;
+  }
+  if (state == VoxelState::shadow) return InvalidReason::inside_shadow;
+  if (too_close_to_shadow(scene_, range_.near_m, centre)) return InvalidReason::too_close_to_shadow;
+  const bool bumps = too_close(constraints_, scene_.occluders(), T_world_cam);
+  return bumps ? InvalidReason::too_close_to_occupied : InvalidReason::none;
+}
+
+}  // namespace vantage
