@@ -9,13 +9,9 @@ namespace vantage {
 namespace {
 
 std::string rejections(const Plan& plan) {
-  std::map<InvalidReason, int> counts;
-  for (const ScoredCandidate& candidate : plan.candidates) {
-    if (candidate.rejected != InvalidReason::none) ++counts[candidate.rejected];
-  }
   std::string text;
-  for (const auto& [reason, count] : counts) {
-    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, to_text(reason));
+  for (const auto& [reason, count] : rejections_of(plan)) {
+    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, reason);
   }
   return text;
 }

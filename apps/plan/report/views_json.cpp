@@ -106,18 +106,15 @@ Json candidates_json(const Plan& plan) {
                     {"newly_observed_volume_m3", counted},
                     {"servo_iteration", exact ? Json(candidate.servo_iteration) : Json()},
                     {"feasible", feasible},
-                    {"rejected", feasible ? Json() : Json(to_text(candidate.rejected))}});
+                    {"rejected", feasible ? Json() : Json(candidate.rejection())}});
   }
   return list;
 }
 
 Json rejections_json(const Plan& plan) {
-  std::map<InvalidReason, int> counts;
-  for (const ScoredCandidate& candidate : plan.candidates) {
-    if (candidate.rejected != InvalidReason::none) ++counts[candidate.rejected];
-  }
   Json json = Json::object();
-  for (const auto& [reason, count] : counts) json[std::string(to_text(reason))] = count;
+  for (const auto& [reason, count] : rejections_of(plan))
+    json[reason] = json.value(reason, std::size_t(0)) + count;
   return json;
 }
 
@@ -136,7 +133,7 @@ Json explanations_json(const Plan& plan, const std::vector<ViewExplanation>& exp
     const bool feasible = view.rejected == InvalidReason::none;
     list.push_back({{"id", view.candidate.id},
                     {"verdict", view.verdict},
-                    {"rejected", feasible ? Json() : Json(to_text(view.rejected))},
+                    {"rejected", feasible ? Json() : Json(view.rejection())},
                     {"newly_observed_volume_m3",
                      feasible ? Json(plan.volume_m3(view.revealed_voxels)) : Json()},
                     {"servo_iteration", feasible ? Json(view.best_step) : Json()},

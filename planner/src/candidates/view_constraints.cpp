@@ -71,6 +71,19 @@ void ViewConstraints::check() const {
   if (const SphereBody* sphere = std::get_if<SphereBody>(&body)) {
     check_length(sphere->radius_m, "radius of the camera's body");
   }
+  for (std::size_t i = 0; i < checks.size(); ++i) {
+    if (checks[i]) continue;
+    throw bad_input("constraints", fmt::format("check {} is empty; expected a function", i));
+  }
+}
+
+ViewCheck view_check(std::function<bool(const Pose& T_world_cam)> feasible, std::string reason) {
+  if (!feasible) throw bad_input("constraints", "the check is empty; expected a function");
+  return [feasible = std::move(feasible),
+          reason = std::move(reason)](const Pose& T_world_cam) -> std::optional<std::string> {
+    if (feasible(T_world_cam)) return std::nullopt;
+    return reason;
+  };
 }
 
 std::string_view to_text(InvalidReason reason) {
@@ -91,6 +104,8 @@ std::string_view to_text(InvalidReason reason) {
       return "too close to shadow";
     case InvalidReason::too_close_to_occupied:
       return "too close to occupied volume";
+    case InvalidReason::rejected_by_check:
+      return "rejected by a check";
   }
   return "unknown";
 }

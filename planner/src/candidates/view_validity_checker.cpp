@@ -1,6 +1,7 @@
 #include "vantage/planner/advanced/view_validity_checker.hpp"
 
 #include <cmath>
+#include <utility>
 
 namespace vantage {
 namespace {
@@ -59,7 +60,7 @@ ViewValidityChecker::ViewValidityChecker(const ViewConstraints& constraints, Pla
   constraints_.check();
 }
 
-InvalidReason ViewValidityChecker::check(const Pose& T_world_cam) const {
+InvalidReason ViewValidityChecker::built_in(const Pose& T_world_cam) const {
   const Eigen::Vector3d& centre = T_world_cam.translation();
   if (centre.z() <= 0) return InvalidReason::below_the_floor;
   if (!in_reach(constraints_, centre)) return InvalidReason::out_of_reach;
@@ -76,6 +77,17 @@ InvalidReason ViewValidityChecker::check(const Pose& T_world_cam) const {
   if (too_close_to_shadow(scene_, range_.near_m, centre)) return InvalidReason::too_close_to_shadow;
   const bool bumps = too_close(constraints_, scene_.occluders(), T_world_cam);
   return bumps ? InvalidReason::too_close_to_occupied : InvalidReason::none;
+}
+
+ViewValidity ViewValidityChecker::examine(const Pose& T_world_cam) const {
+  const InvalidReason reason = built_in(T_world_cam);
+  if (reason != InvalidReason::none) return {reason};
+  for (const ViewCheck& check : constraints_.checks) {
+    if (std::optional<std::string> why = check(T_world_cam)) {
+      return {InvalidReason::rejected_by_check, std::move(*why)};
+    }
+  }
+  return {};
 }
 
 }  // namespace vantage

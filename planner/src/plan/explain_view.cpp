@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <utility>
 
 #include "plan/polish_ranked.hpp"
 #include "vantage/planner/plan.hpp"
@@ -20,26 +21,6 @@ const ScoredCandidate& candidate_of(const Plan& plan, int id) {
                                          plan.candidates.size() - 1));
 }
 
-/// How much of each region of the shadow is among the voxels that are seen.
-std::vector<RegionGain> region_gains(const StateGrid& grid, const std::vector<std::uint8_t>& seen) {
-  const ShadowRegions regions(grid);
-  const Points centres = grid.centres(VoxelState::shadow);
-  std::map<std::size_t, std::uint64_t> revealed;
-  for (std::size_t i = 0; i < centres.size(); ++i) {
-    if (seen[i] == 0) continue;
-    const auto voxel = grid.geometry().voxel_at(centres[i].cast<double>());
-    ++revealed[std::size_t(regions.label(voxel.value()) - 1)];
-  }
-  std::vector<RegionGain> gains;
-  for (const auto& [region, voxels] : revealed) {
-    gains.push_back({region, regions.list()[region].voxels, voxels});
-  }
-  std::stable_sort(gains.begin(), gains.end(), [](const RegionGain& a, const RegionGain& b) {
-    return a.revealed > b.revealed;
-  });
-  return gains;
-}
-
 std::string score_text(const Plan& plan, Score score) {
   return fmt::format("{:.6g} {}", plan.in_units(score), plan.score_unit_name);
 }
@@ -53,7 +34,7 @@ std::string polish_text(const ScoredStep& step) {
 std::string verdict_of(const Plan& plan, const ViewExplanation& view,
                        const planner::detail::Utility& utility) {
   if (view.rejected != InvalidReason::none) {
-    return fmt::format("rejected: {}", to_text(view.rejected));
+    return fmt::format("rejected: {}", view.rejection());
   }
   const ScoredStep& best_step = view.trace[view.best_step];
   const Score own = best_step.score.score;
@@ -79,41 +60,103 @@ std::string verdict_of(const Plan& plan, const ViewExplanation& view,
   return text;
 }
 
-}  // namespace
+/// Explains candidates of one plan.
+class Explainer {
+ public:
+  Explainer(const Plan& plan, const planner::detail::PlannerContext& context)
+      : plan_(plan),
+        context_(context),
+        utility_(plan.request.search.travel),
+        regions_(*plan.classified),
+        centres_(plan.classified->centres(VoxelState::shadow)) {}
 
-ViewExplanation explain_view(const WorldModel& world, const Plan& plan, int id) {
-  if (plan.classified == nullptr) {
-    throw bad_input("explain", "the plan was stopped before the work area was classified");
+  ViewExplanation explain(const ScoredCandidate& candidate) const {
+    ViewExplanation view{.candidate = candidate.view};
+    ViewValidity validity = context_.search_tools().validity->examine(candidate.view.T_world_cam);
+    view.rejected = validity.reason;
+    view.check_says = std::move(validity.check_says);
+    if (view.rejected == InvalidReason::none) score(candidate, view);
+    view.verdict = verdict_of(plan_, view, utility_);
+    return view;
   }
-  const ScoredCandidate& candidate = candidate_of(plan, id);
-  const planner::detail::PlannerContext context(world, plan.classified, plan.request,
-                                                plan.candidates.size());
-  const planner::detail::Utility utility(plan.request.search.travel);
-  ViewExplanation view{.candidate = candidate.view};
-  view.rejected = context.search_tools().validity->check(candidate.view.T_world_cam);
-  if (view.rejected == InvalidReason::none) {
-    view.trace = planner::detail::trace(context, plan, candidate);
+
+ private:
+  void score(const ScoredCandidate& candidate, ViewExplanation& view) const {
+    view.trace = planner::detail::trace(context_, plan_, candidate);
     const auto worth = [&](const ScoredStep& step) {
-      return utility.of(step.score.score, utility.share(step.step.T_world_cam.translation()));
+      return utility_.of(step.score.score, utility_.share(step.step.T_world_cam.translation()));
     };
     const auto best = std::max_element(
         view.trace.begin(), view.trace.end(),
         [&](const ScoredStep& a, const ScoredStep& b) { return worth(a) < worth(b); });
     view.best_step = std::size_t(best - view.trace.begin());
-    const PinholeCamera camera = context.camera().moved_to(best->step.T_world_cam);
-    view.terms = context.scorer()->terms(camera);
-    const std::vector<std::uint8_t> seen = context.voxels().revealed(camera);
+    const PinholeCamera camera = context_.camera().moved_to(best->step.T_world_cam);
+    view.terms = context_.scorer()->terms(camera);
+    const std::vector<std::uint8_t> seen = context_.voxels().revealed(camera);
     view.revealed_voxels = std::uint64_t(std::count(seen.begin(), seen.end(), std::uint8_t(1)));
-    view.regions = region_gains(*plan.classified, seen);
+    view.regions = region_gains(seen);
   }
-  view.verdict = verdict_of(plan, view, utility);
-  return view;
+
+  /// How much of each region of the shadow is among the voxels that are seen.
+  std::vector<RegionGain> region_gains(const std::vector<std::uint8_t>& seen) const {
+    std::map<std::size_t, std::uint64_t> revealed;
+    for (std::size_t i = 0; i < centres_.size(); ++i) {
+      if (seen[i] == 0) continue;
+      const auto voxel = plan_.classified->geometry().voxel_at(centres_[i].cast<double>());
+      ++revealed[std::size_t(regions_.label(voxel.value()) - 1)];
+    }
+    std::vector<RegionGain> gains;
+    for (const auto& [region, voxels] : revealed) {
+      gains.push_back({region, regions_.list()[region].voxels, voxels});
+    }
+    std::stable_sort(gains.begin(), gains.end(), [](const RegionGain& a, const RegionGain& b) {
+      return a.revealed > b.revealed;
+    });
+    return gains;
+  }
+
+  const Plan& plan_;
+  const planner::detail::PlannerContext& context_;
+  planner::detail::Utility utility_;
+  ShadowRegions regions_;
+  Points centres_;
+};
+
+/// The plan's own, or one like it.
+std::shared_ptr<const planner::detail::PlannerContext> context_of(const WorldModel& world,
+                                                                  const Plan& plan) {
+  if (plan.context != nullptr) return plan.context;
+  return std::make_shared<const planner::detail::PlannerContext>(
+      world, plan.classified, plan.request, plan.candidates.size());
+}
+
+}  // namespace
+
+std::vector<ViewExplanation> explain_views(const WorldModel& world, const Plan& plan,
+                                           std::span<const int> ids, const StopToken& stop) {
+  if (plan.classified == nullptr) {
+    throw bad_input("explain", "the plan was stopped before the work area was classified");
+  }
+  std::vector<const ScoredCandidate*> candidates;
+  for (const int id : ids) candidates.push_back(&candidate_of(plan, id));
+  std::vector<ViewExplanation> explained;
+  if (candidates.empty() || stop.stop_requested()) return explained;
+  const auto context = context_of(world, plan);
+  const Explainer explainer(plan, *context);
+  for (const ScoredCandidate* candidate : candidates) {
+    if (stop.stop_requested()) break;
+    explained.push_back(explainer.explain(*candidate));
+  }
+  return explained;
+}
+
+ViewExplanation explain_view(const WorldModel& world, const Plan& plan, int id) {
+  return explain_views(world, plan, {&id, 1}).front();
 }
 
 std::uint64_t revealed_voxels(const WorldModel& world, const Plan& plan, const Pose& T_world_cam) {
-  const planner::detail::PlannerContext context(world, plan.classified, plan.request,
-                                                plan.candidates.size());
-  return context.voxels().score(context.camera().moved_to(T_world_cam)).score;
+  const auto context = context_of(world, plan);
+  return context->voxels().score(context->camera().moved_to(T_world_cam)).score;
 }
 
 }  // namespace vantage

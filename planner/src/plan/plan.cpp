@@ -3,6 +3,7 @@
 #include <tbb/parallel_for.h>
 
 #include <chrono>
+#include <map>
 
 #include "plan/planner_context.hpp"
 #include "plan/polish_ranked.hpp"
@@ -35,7 +36,9 @@ void search(const WorldModel& world, const std::vector<ViewCandidate>& views, Pl
   if (stopped()) return;
   const PlanningScene scene(world, plan.classified, plan.request.volume.occluders);
   if (stopped()) return;
-  const planner::detail::PlannerContext context(world, scene, plan.request, views.size());
+  plan.context = std::make_shared<const planner::detail::PlannerContext>(world, scene, plan.request,
+                                                                         views.size());
+  const planner::detail::PlannerContext& context = *plan.context;
   plan.score_unit = context.scorer()->unit();
   plan.score_unit_name = context.scorer()->unit_name();
   SearchResult found = context.search(views, stop);
@@ -74,6 +77,17 @@ void search_classified(const WorldModel& world, const std::vector<ViewCandidate>
 }
 
 }  // namespace
+
+std::vector<std::pair<std::string, std::size_t>> rejections_of(const Plan& plan) {
+  std::map<std::pair<InvalidReason, std::string_view>, std::size_t> counts;
+  for (const ScoredCandidate& candidate : plan.candidates) {
+    if (candidate.rejected == InvalidReason::none) continue;
+    ++counts[{candidate.rejected, candidate.rejection()}];
+  }
+  std::vector<std::pair<std::string, std::size_t>> rejections;
+  for (const auto& [reason, count] : counts) rejections.emplace_back(reason.second, count);
+  return rejections;
+}
 
 Plan plan_next_view(const WorldModel& world, const PlanRequest& request, const StopToken& stop) {
   check(request);

@@ -46,9 +46,9 @@ void CandidateGroup::prepare(const TopK& top, const StopToken& stop) {
   std::optional<ExtremePoints> extremes;
   for (std::size_t c = 0; c < outcomes_.size() && !stop.stop_requested(); ++c) {
     const Pose& pose = candidates_[range_.first + c].T_world_cam;
-    outcomes_[c].rejected = context_->validity->check(pose);
+    outcomes_[c].validity = context_->validity->examine(pose);
     outcomes_[c].ready = true;
-    if (outcomes_[c].rejected != InvalidReason::none) continue;
+    if (!outcomes_[c].validity.valid()) continue;
     const Score needed = top.needed(candidates_[range_.first + c].id);
     int iteration = 0;
     for (const ServoStep& step : context_->path(pose, extremes)) {
@@ -128,8 +128,10 @@ const CandidateGroup::Step* CandidateGroup::best_exact(std::size_t candidate) co
 }
 
 ScoredCandidate CandidateGroup::outcome(std::size_t candidate) const {
-  ScoredCandidate result{candidates_[range_.first + candidate], outcomes_[candidate].rejected};
-  if (result.rejected != InvalidReason::none) return result;
+  const ViewValidity& validity = outcomes_[candidate].validity;
+  ScoredCandidate result{candidates_[range_.first + candidate], validity.reason};
+  result.check_says = validity.check_says;
+  if (!validity.valid()) return result;
   const Step* best = best_exact(candidate);
   bool certain = best != nullptr, unknown = false;
   Score most = 0;

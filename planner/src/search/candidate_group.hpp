@@ -75,8 +75,7 @@ class CandidateGroup {
   };
   struct Outcome {
     bool ready = false;
-    InvalidReason rejected = InvalidReason::none;
-    const Step* best = nullptr;  ///< of the exact ones
+    ViewValidity validity = {};
   };
 
   void score_group(std::span<Step* const> group, const TopK& top, const StopToken& stop);

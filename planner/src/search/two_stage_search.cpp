@@ -42,6 +42,7 @@ void report_cheap(const SearchResult& cheap, const Part& round, SearchResult& re
   for (std::size_t i = 0; i < round.indices.size(); ++i) {
     ScoredCandidate& candidate = result.candidates[round.indices[i]];
     candidate.rejected = cheap.candidates[i].rejected;
+    candidate.check_says = cheap.candidates[i].check_says;
     if (cheap.candidates[i].score.known != ScoreBound::Known::nothing) {
       candidate.score.known = ScoreBound::Known::pruned;
     }

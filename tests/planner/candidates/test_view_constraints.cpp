@@ -182,9 +182,30 @@ TEST_CASE("of several reasons the first one counts") {
   CHECK(dark.check(limits, {0.5, 0, 0.1}) == InvalidReason::too_close_to_occupied);
 }
 
+TEST_CASE("checks are asked last, in their order, and the first that says no counts") {
+  const ViewCheck yes = [](const Pose&) { return std::nullopt; };
+  const auto no = [](const std::string& why) {
+    return view_check([](const Pose&) { return false; }, why);
+  };
+  ViewConstraints limits;
+  limits.checks = {yes, no("the first"), no("the second")};
+  const Cell cell;
+  const auto examined = [&](const Pose& pose) {
+    const PlanningScene scene(cell.world, cell.grid, OccluderMode::mesh);
+    return ViewValidityChecker(limits, scene, kCellRange).examine(pose);
+  };
+  const Pose above = Pose::from_translation({0, 0, 2}), below = Pose::from_translation({0, 0, -1});
+  CHECK(examined(above).reason == InvalidReason::rejected_by_check);
+  CHECK(examined(above).check_says == "the first");
+  CHECK(examined(below).reason == InvalidReason::below_the_floor);
+  CHECK(examined(below).check_says.empty());
+  limits.checks = {yes};
+  CHECK(examined(above).valid());
+}
+
 TEST_CASE("every rejection has words of its own") {
   std::set<std::string_view> words;
-  for (int reason = 0; reason <= int(InvalidReason::too_close_to_occupied); ++reason) {
+  for (int reason = 0; reason <= int(InvalidReason::rejected_by_check); ++reason) {
     CHECK(words.insert(to_text(InvalidReason(reason))).second);
   }
   CHECK(to_text(InvalidReason::below_the_floor) == "below the floor");

@@ -64,6 +64,17 @@ TEST_CASE("the mesh method looks at the other side, whether the wall was recogni
   }
 }
 
+TEST_CASE("the request's noise is the mesh method's, too") {
+  const WorldModel world = measured_wall(true);
+  PlanRequest request = mesh_request();
+  std::vector<Score> scores;
+  for (const double subpixel_px : {0.08, 0.8}) {
+    request.volume.noise.subpixel_px = subpixel_px;
+    scores.push_back(plan_next_view(world, request).best()->score);
+  }
+  CHECK(scores[0] != scores[1]);
+}
+
 TEST_CASE("a shortlist that all candidates are on finds what scoring all of them finds") {
   const WorldModel world = measured_wall(true);
   PlanRequest request = mesh_request();

@@ -3,7 +3,10 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "vantage/planner/methods.hpp"
@@ -19,6 +22,10 @@
 #include "vantage/volume/volume_options.hpp"
 
 namespace vantage {
+
+namespace planner::detail {
+class PlannerContext;
+}
 
 /// What to plan for.
 struct PlanRequest {
@@ -61,6 +68,9 @@ struct Plan {
   StopReason stopped = StopReason::none;
   double classify_s = 0;
   double score_s = 0;
+  /// The scorers and the scene that it was made with, which explanations go on using: immutable,
+  /// and shared by copies of the plan. It may be large; without it (reset it) they are made anew.
+  std::shared_ptr<const planner::detail::PlannerContext> context = {};
 
   const RankedView* best() const { return ranked.empty() ? nullptr : &ranked.front(); }
 
@@ -94,6 +104,9 @@ VANTAGE_API Plan plan_next_view(const WorldModel& world,
                                 std::shared_ptr<const StateGrid> classified,
                                 const PlanRequest& request, const StopToken& stop = {});
 
+/// How many candidates were rejected, by reason in words, in the order of `InvalidReason`.
+VANTAGE_API std::vector<std::pair<std::string, std::size_t>> rejections_of(const Plan& plan);
+
 /// What a candidate would reveal of one region of the shadow.
 struct RegionGain {
   std::size_t region = 0;  ///< index into `ShadowRegions::list`
@@ -103,18 +116,30 @@ struct RegionGain {
 /// Why a candidate has the score that it has.
 struct ViewExplanation {
   ViewCandidate candidate;
-  InvalidReason rejected = InvalidReason::none;  ///< then the rest is empty
+  InvalidReason rejected = InvalidReason::none;  ///< if there is one, the rest is empty
+  std::string check_says = {};                   ///< but this, if a `ViewCheck` rejected it
   std::vector<ScoredStep> trace = {};  ///< as `Plan::trace`, each step with its exact score
   std::size_t best_step = 0;
   std::vector<ScoreTerm> terms = {};     ///< of the best step
   std::uint64_t revealed_voxels = 0;     ///< by the best step
   std::vector<RegionGain> regions = {};  ///< of which something is revealed; largest gain first
   std::string verdict = {};              ///< a sentence: why it won, or why it lost and by how much
+
+  /// Why it was rejected, in words.
+  std::string_view rejection() const { return rejection_text(rejected, check_says); }
 };
 
-/// Explains one candidate of a plan.
+/// Explains one candidate of a plan, by the plan's own scorers.
+/// @param world that it was planned for; looked at only if the plan has no `context`.
 /// @throws Error bad_input for an id that the plan does not have, or a plan without a grid.
 VANTAGE_API ViewExplanation explain_view(const WorldModel& world, const Plan& plan, int id);
+
+/// Explains several, in the order given; what they have in common is computed once.
+/// @param stop ends it before the next one: then only those before are there.
+/// @throws Error as `explain_view` does, before any is explained.
+VANTAGE_API std::vector<ViewExplanation> explain_views(const WorldModel& world, const Plan& plan,
+                                                       std::span<const int> ids,
+                                                       const StopToken& stop = {});
 
 /// What the voxel method gives for a pose: shadow voxels of `plan.classified` that it sees.
 VANTAGE_API std::uint64_t revealed_voxels(const WorldModel& world, const Plan& plan,

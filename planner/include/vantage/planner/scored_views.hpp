@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -49,12 +50,22 @@ struct PolishStep {
   Pose T_world_cam;  ///< after it
 };
 
+/// A rejection in words: the check's own, where it has some.
+inline std::string_view rejection_text(InvalidReason reason, std::string_view check_says) {
+  const bool by_check = reason == InvalidReason::rejected_by_check && !check_says.empty();
+  return by_check ? check_says : to_text(reason);
+}
+
 /// A candidate and what came of it.
 struct ScoredCandidate {
   ViewCandidate view;
   InvalidReason rejected = InvalidReason::none;
-  ScoreBound score = {};    ///< the best of its servo iterations, before travel; at most that
-  int servo_iteration = 0;  ///< of the best one; of use if the score is exact
+  ScoreBound score = {};        ///< the best of its servo iterations, before travel; at most that
+  int servo_iteration = 0;      ///< of the best one; of use if the score is exact
+  std::string check_says = {};  ///< what a `ViewCheck` said, if that rejected it
+
+  /// Why it was rejected, in words.
+  std::string_view rejection() const { return rejection_text(rejected, check_says); }
 };
 
 /// One servo iteration of a candidate.

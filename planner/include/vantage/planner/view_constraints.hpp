@@ -2,8 +2,10 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <variant>
 #include <vector>
@@ -54,6 +56,19 @@ struct BoxBody {
   Box box;
 };
 
+/// A test of the caller's own of whether the camera can be at a pose, by inverse kinematics, say,
+/// or by a collision check: nothing if it can, else why not, e.g. "no joint angles reach it".
+///
+/// It is called from several threads at once, for the same pose more than once, and in an order
+/// that depends on the threads: it must be thread-safe, and its answer must depend on the pose
+/// alone. Plans count rejections by their texts: the same cause should have the same words. What it
+/// throws comes out of the call that asked it.
+using ViewCheck = std::function<std::optional<std::string>(const Pose& T_world_cam)>;
+
+/// A check that gives one reason for all poses for which `feasible` is false.
+VANTAGE_API ViewCheck view_check(std::function<bool(const Pose& T_world_cam)> feasible,
+                                 std::string reason);
+
 /// Where the camera may be. All limits apply at once.
 struct ViewConstraints {
   std::optional<Reach> reach = {};
@@ -63,9 +78,12 @@ struct ViewConstraints {
   /// Least distance of the body from all that is occupied, and from the floor at z = 0.
   double clearance_m = 0;
   std::variant<std::monostate, SphereBody, BoxBody> body = {};  ///< none: the centre alone
+  /// Asked in their order, and only of poses that all of the above allows: candidates, every servo
+  /// iteration and every step of polishing, of the first view and of those after it.
+  std::vector<ViewCheck> checks = {};
 
   /// @throws Error bad_input as its parts do; for a clearance or a radius that is negative or not
-  /// finite.
+  /// finite, and for an empty check.
   VANTAGE_API void check() const;
 };
 
@@ -80,6 +98,7 @@ enum class InvalidReason : std::uint8_t {
   too_close_to_shadow,  ///< closer to it than the camera's near depth: it would not be measured
   /// The body is closer to it, or to the floor, than the clearance, or touches it.
   too_close_to_occupied,
+  rejected_by_check,  ///< by one of `ViewConstraints::checks`, which says why
 };
 /// In words, e.g. "out of reach".
 VANTAGE_API std::string_view to_text(InvalidReason reason);
