@@ -87,23 +87,12 @@ ExitCode exit_code_of(const Plan& plan) {
 /// Asked for before the work, so that a wrong id costs nothing.
 void check_explained(const PlanRequest& request, const std::vector<int>& ids) {
   if (ids.empty()) return;
-  const std::size_t count = view_candidates(request.candidates, request.work_area).size();
+  const std::size_t count = view_count(request.candidates, request.work_area);
   for (const int id : ids) {
     if (id >= 0 && std::size_t(id) < count) continue;
     throw bad_input("--explain",
                     fmt::format("found candidate {}; expected 0 to {}", id, count - 1));
   }
-}
-
-/// Nothing where the plan was stopped too early for it.
-std::vector<ViewExplanation> explain(const WorldModel& world, const Plan& plan,
-                                     const std::vector<int>& ids, const StopToken& stop) {
-  std::vector<ViewExplanation> explained;
-  for (const int id : ids) {
-    if (plan.classified == nullptr || stop.stop_requested()) break;
-    explained.push_back(explain_view(world, plan, id));
-  }
-  return explained;
 }
 
 }  // namespace
@@ -120,8 +109,10 @@ ExitCode run_plan(const WorldModel& world, const PlanRequest& request, PlanRecor
   const Plan plan = workers.execute([&] {
     const ProgressLine progress("planning", run.stop);
     Plan result = plan_next_view(world, request, run.stop);
-    if (result.classified != nullptr) regions.emplace(*result.classified);
-    explained = explain(world, result, output.explain, run.stop);
+    if (result.classified != nullptr) {
+      regions.emplace(*result.classified);
+      explained = explain_views(world, result, output.explain, run.stop);
+    }
     return result;
   });
   record.total_s = std::chrono::duration<double>(StopToken::Clock::now() - start).count();

@@ -58,17 +58,24 @@ void check_position(const ViewCandidate& view) {
 }
 
 /// Before anything is made of them.
-void check_view_count(double positions, std::int64_t per_position) {
-  if (positions * double(per_position) <= double(kMaxViews)) return;
+std::size_t checked_count(double positions, std::int64_t per_position) {
+  if (positions * double(per_position) <= double(kMaxViews)) {
+    return std::size_t(positions) * std::size_t(per_position);
+  }
   throw refusal("{:.0f} positions with {} views each; at most {} views are handled", positions,
                 per_position, kMaxViews);
 }
 
-std::vector<ViewCandidate> views_of(const HalfSpheres& given, const Box& work_area) {
+std::size_t count_of(const HalfSpheres& given, const Box& work_area) {
   check_fan(given.fan);
   const HalfSpheres set = resolve_defaults(given, work_area);
-  check_view_count(std::accumulate(set.counts.begin(), set.counts.end(), 0.0),
-                   planner::detail::fan_size(set.fan));
+  return checked_count(std::accumulate(set.counts.begin(), set.counts.end(), 0.0),
+                       planner::detail::fan_size(set.fan));
+}
+
+std::vector<ViewCandidate> views_of(const HalfSpheres& given, const Box& work_area) {
+  (void)count_of(given, work_area);
+  const HalfSpheres set = resolve_defaults(given, work_area);
   const Eigen::Vector3d centre = work_area.centre();
   std::vector<ViewCandidate> views;
   for (std::size_t i = 0; i < set.radii_m.size(); ++i) {
@@ -82,13 +89,17 @@ std::vector<ViewCandidate> views_of(const HalfSpheres& given, const Box& work_ar
   return views;
 }
 
-std::vector<ViewCandidate> views_of(const BoxGrid& grid, const Box& work_area) {
+std::size_t count_of(const BoxGrid& grid, const Box&) {
   check_fan(grid.fan);
   if (grid.counts.minCoeff() < 1) {
     throw refusal("a grid of {} x {} x {} positions; expected 1 or more along each axis",
                   grid.counts.x(), grid.counts.y(), grid.counts.z());
   }
-  check_view_count(grid.counts.cast<double>().prod(), planner::detail::fan_size(grid.fan));
+  return checked_count(grid.counts.cast<double>().prod(), planner::detail::fan_size(grid.fan));
+}
+
+std::vector<ViewCandidate> views_of(const BoxGrid& grid, const Box& work_area) {
+  (void)count_of(grid, work_area);
   const auto coordinate = [&](int axis, int i) {
     const double share = grid.counts[axis] == 1 ? 0.5 : double(i) / (grid.counts[axis] - 1);
     return (1 - share) * grid.box.min()[axis] + share * grid.box.max()[axis];
@@ -105,13 +116,22 @@ std::vector<ViewCandidate> views_of(const BoxGrid& grid, const Box& work_area) {
   return views;
 }
 
-std::vector<ViewCandidate> views_of(const AroundPath& around, const Box& work_area) {
+/// The poses of the path itself, of as many as may be.
+std::vector<Pose> places_along(const AroundPath& around) {
   check_positive_length(around.step_m, "a step along the path");
   check_positive_length(around.radius_m, "a sphere around the path with a radius");
   check_direction_count(around.count, "a sphere around the path");
-  const std::vector<Pose> places =
-      planner::detail::poses_along(around.path, around.step_m, kMaxViews);
-  check_view_count(double(places.size()), 1 + around.count);
+  std::vector<Pose> places = planner::detail::poses_along(around.path, around.step_m, kMaxViews);
+  (void)checked_count(double(places.size()), 1 + around.count);
+  return places;
+}
+
+std::size_t count_of(const AroundPath& around, const Box&) {
+  return places_along(around).size() * std::size_t(1 + around.count);
+}
+
+std::vector<ViewCandidate> views_of(const AroundPath& around, const Box& work_area) {
+  const std::vector<Pose> places = places_along(around);
   const auto directions = planner::detail::directions_in_rings(around.count, kPi);
   std::vector<ViewCandidate> views;
   for (const Pose& place : places) {
@@ -124,9 +144,13 @@ std::vector<ViewCandidate> views_of(const AroundPath& around, const Box& work_ar
   return views;
 }
 
-std::vector<ViewCandidate> views_of(const ViewList& list, const Box&) {
+std::size_t count_of(const ViewList& list, const Box&) {
   if (list.poses.empty()) throw refusal("a list without poses; expected at least one");
-  check_view_count(double(list.poses.size()), 1);
+  return checked_count(double(list.poses.size()), 1);
+}
+
+std::vector<ViewCandidate> views_of(const ViewList& list, const Box& work_area) {
+  (void)count_of(list, work_area);
   std::vector<ViewCandidate> views;
   for (const Pose& pose : list.poses) views.push_back({int(views.size()), pose});
   return views;
@@ -163,6 +187,10 @@ std::vector<ViewCandidate> view_candidates(const CandidateSet& set, const Box& w
   auto views = std::visit([&](const auto& kind) { return views_of(kind, work_area); }, set);
   for (const ViewCandidate& view : views) check_position(view);
   return views;
+}
+
+std::size_t view_count(const CandidateSet& set, const Box& work_area) {
+  return std::visit([&](const auto& kind) { return count_of(kind, work_area); }, set);
 }
 
 std::vector<Eigen::Vector3d> half_sphere_directions(int count) {

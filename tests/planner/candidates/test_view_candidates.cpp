@@ -280,9 +280,30 @@ TEST_CASE("a list of poses is taken as it is") {
   }
 }
 
+TEST_CASE("views are counted as they are made") {
+  Random random(5);
+  const auto below = [&](std::uint32_t n) { return int(random.below(n)); };
+  for (int i = 0; i < 200; ++i) {
+    CAPTURE(i);
+    const ViewFan fan{below(4), 0.1};
+    AroundPath around{{}, random.uniform(0.02, 0.4), 0.1, 1 + below(5)};
+    for (int pose = 0; pose <= below(4); ++pose) around.path.push_back(random.pose(1));
+    for (const CandidateSet& set :
+         {CandidateSet(HalfSpheres{{}, {1 + below(30), 1 + below(30)}, fan}),
+          CandidateSet(HalfSpheres{{0.4, 0.5, 0.6}, {1 + below(30)}, fan}),
+          CandidateSet(BoxGrid{kArea, {1 + below(3), 1 + below(4), 1 + below(5)}, fan}),
+          CandidateSet(around), CandidateSet(ViewList{around.path})}) {
+      CHECK(view_count(set, kArea) == view_candidates(set, kArea).size());
+    }
+  }
+  CHECK(view_count(full_views(), kArea) == 34'225);
+}
+
 TEST_CASE("impossible candidates are refused with the value") {
   const auto refuses = [](const CandidateSet& set, std::string_view message) {
     expect_bad_input("candidates", message, [&] { view_candidates(set, kArea); });
+    if (message.starts_with("view ")) return;  // positions are not looked at to count
+    expect_bad_input("candidates", message, [&] { (void)view_count(set, kArea); });
   };
   expect_bad_input("candidates", "0 positions", [] { half_sphere_directions(0); });
   expect_bad_input("candidates", "0 half-spheres", [] { default_radii_m(kArea, 0); });

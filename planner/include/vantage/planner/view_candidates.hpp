@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
 #include <variant>
 #include <vector>
 
@@ -73,6 +74,10 @@ using CandidateSet = std::variant<HalfSpheres, BoxGrid, AroundPath, ViewList>;
 /// list or path without poses, positions more than 1e6 m from the world's origin.
 VANTAGE_API std::vector<ViewCandidate> view_candidates(const CandidateSet& set,
                                                        const Box& work_area);
+
+/// How many there are, without making them.
+/// @throws Error bad_input as `view_candidates` does, but for their positions.
+VANTAGE_API std::size_t view_count(const CandidateSet& set, const Box& work_area);
 
 /// `count` unit vectors with z > 0, spread evenly over the half-sphere: rings of equal polar
 /// distance, with points in proportion to each ring's circumference (M. Deserno, "How to generate
