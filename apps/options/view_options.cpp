@@ -210,16 +210,18 @@ FieldGroup fields_of(ViewOptions& options) {
            travel_fields(options), fields_of(options.views)}};
 }
 
-Method ViewOptions::chosen() const {
-  Method result = method_named(method);
-  if (auto* const shadow = std::get_if<ShadowMethod>(&result)) {
-    shadow->depth_power = depth_power.value_or(shadow->depth_power);
-  } else if (auto* const by_mesh = std::get_if<MeshMethod>(&result)) {
-    *by_mesh = mesh;
-    by_mesh->depth_power = depth_power.value_or(mesh.depth_power);
-    by_mesh->weight = mesh_weight.value_or(depth_power ? MeshWeight::depth : mesh.weight);
-  }
+MeshMethod ViewOptions::mesh_method() const {
+  MeshMethod result = mesh;
+  result.depth_power = depth_power.value_or(mesh.depth_power);
+  result.weight = mesh_weight.value_or(depth_power ? MeshWeight::depth : mesh.weight);
   return result;
+}
+
+Method ViewOptions::chosen() const {
+  const Method usual = method_named(method);
+  if (std::holds_alternative<MeshMethod>(usual)) return mesh_method();
+  if (std::holds_alternative<ShadowMethod>(usual) && depth_power) return ShadowMethod{*depth_power};
+  return usual;
 }
 
 void ViewOptions::apply(PlanRequest& request) const {

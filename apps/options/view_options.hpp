@@ -13,7 +13,7 @@ namespace vantage {
 /// it.
 struct ViewOptions {
   std::string method{VoxelMethod::kName};
-  MeshMethod mesh;                        ///< if that is the method; its weighting is below
+  MeshMethod mesh;                        ///< but for its weight and power
   std::optional<double> depth_power;      ///< not given: the default
   std::optional<MeshWeight> mesh_weight;  ///< not given: by depth if its power is
   ServoOptions servo;
@@ -22,6 +22,9 @@ struct ViewOptions {
   double travel_weight_per_m = 0;
   std::optional<Eigen::Vector3d> from_m;  ///< none: journeys cost nothing
   ViewSequenceOptions views;
+
+  /// The mesh method as it is asked for, whichever method is chosen.
+  MeshMethod mesh_method() const;
 
   /// Puts all of it into a request.
   /// @throws Error bad_input for a weight of the journey without its start.
@@ -36,7 +39,7 @@ struct ViewOptions {
 FieldGroup fields_of(ViewOptions& options);
 FieldGroup fields_of(ServoOptions& servo);
 FieldGroup fields_of(PolishOptions& polish);
-FieldGroup fields_of(MeshMethod& mesh);  ///< but for its weighting
+FieldGroup fields_of(MeshMethod& mesh);
 FieldGroup fields_of(ViewSequenceOptions& views);
 
 }  // namespace vantage

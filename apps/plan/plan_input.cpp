@@ -54,11 +54,9 @@ PlanInput load_plan_input(const PlanOptions& options, const StopToken& stop) {
   const Workcell workcell = workcell_of(options);
   PlanWorld plan =
       load_plan_world(options.dataset, options.images, workcell, options.objects, stop);
-  PlanInput input{std::move(plan.world),
-                  plan_request(workcell, plan.first_camera),
-                  {},
-                  plan.warnings,
-                  workcell.plan};
+  PlanInput input{
+      std::move(plan.world), plan_request(workcell, plan.first_camera), {}, plan.warnings};
+  input.mesh = workcell.plan.mesh_method();
   input.record.warnings = plan.warnings;
   input.record.inputs = workcell.files;
   input.record.inputs.insert(input.record.inputs.end(), plan.files.begin(), plan.files.end());

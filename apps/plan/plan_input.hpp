@@ -37,7 +37,7 @@ struct PlanInput {
   PlanRequest request;
   PlanRecord record;
   std::vector<std::string> warnings;
-  ViewOptions views = {};  ///< what `request` has of the method and the search
+  MeshMethod mesh = {};  ///< the mesh method as it was asked for, whichever method the request has
 };
 
 /// Loads the dataset and the workcell, and finds the objects if they are not given. Runs in the

@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "bench_volume_carve.hpp"
+#include "bench_volume_changes.hpp"
 #include "bench_volume_probe.hpp"
 #include "bench_volume_scenes.hpp"
 #include "reference/thesis_volume.hpp"
@@ -196,6 +197,7 @@ void add_all() {
     add(fmt::format("fold in a frame/{} objects", known ? "known" : "no known"),
         [=](auto& state) { fold_frame(state, known); });
   }
+  add_changes(report);
   for (const std::string scene : {"cell", "objects"}) {
     add(scene + "/5 mm/mesh", [=](auto& state) {
       probe(state, scene, OccluderMode::mesh, 0.005);

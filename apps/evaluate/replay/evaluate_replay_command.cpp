@@ -49,7 +49,7 @@ ReplayBenchmarkOptions options_of(const ReplayCommandOptions& arguments, const M
 
 Json config_json(const ReplayCommandOptions& arguments, const PlanInput& input) {
   PlanRequest request = input.request;
-  request.method = input.views.mesh;
+  request.method = input.mesh;
   const Json all = config_of(request);
   Json config = input.record.config;
   config.update({{"methods", arguments.methods},
@@ -77,7 +77,7 @@ ExitCode evaluate(const ReplayCommandOptions& arguments) {
   Workers workers(arguments.threads);
   PlanInput input = workers.execute([&] { return load_plan_input(arguments.plan, stop); });
   for (const std::string& warning : input.warnings) spdlog::warn("{}", warning);
-  const ReplayBenchmarkOptions settings = options_of(arguments, input.views.mesh);
+  const ReplayBenchmarkOptions settings = options_of(arguments, input.mesh);
   const ReplayEvaluation evaluation = workers.execute([&] {
     const ProgressLine progress("replaying", stop);
     return evaluate_replay(input, settings, stop);

@@ -135,11 +135,12 @@ double depth_power_of(const Method& method) {
 }
 
 /// Null for the methods that it does not concern.
-Json mesh_json(Method& method) {
-  auto* const mesh = std::get_if<MeshMethod>(&method);
-  if (mesh == nullptr) return nullptr;
-  Json json{{"weight", mesh->weight == MeshWeight::volume ? "volume" : "depth"}};
-  json.update(to_json(fields_of(*mesh)));
+Json mesh_json(const Method& method) {
+  const auto* const by_mesh = std::get_if<MeshMethod>(&method);
+  if (by_mesh == nullptr) return nullptr;
+  MeshMethod mesh = *by_mesh;
+  Json json{{"weight", mesh.weight == MeshWeight::volume ? "volume" : "depth"}};
+  json.update(to_json(fields_of(mesh)));
   return json;
 }
 

@@ -93,9 +93,7 @@ TEST_CASE("a workcell says how to plan, and the command line overrides it field 
                                   "  views: {most: 3}\n");
   options.given = {{"servo", {{"image_width", 80}}}, {"volume", {{"band_sigmas", 5}}}};
   const PlanRequest request = load_plan_input(options).request;
-  const auto& mesh = std::get<MeshMethod>(request.method);
-  CHECK(mesh.opening_m == 0.01);
-  CHECK(mesh.weight == MeshWeight::depth);
+  CHECK(request.method == Method(MeshMethod{.opening_m = 0.01, .weight = MeshWeight::depth}));
   CHECK(request.servo.iterations == 2);
   CHECK(request.servo.image_width == 80);
   CHECK(request.views.most == 3);

@@ -239,18 +239,17 @@ TEST_CASE("nothing is filled in out of reach, and without a measurement there is
   };
   CHECK_FALSE(visibility_lattice(uniform(double(kUnknown)), kArea, StereoNoise(), {}));
   CHECK_FALSE(visibility_lattice(uniform(0), kArea, StereoNoise(), {}));
-  CHECK_FALSE(visibility_lattice(uniform(0.05), kArea, StereoNoise(), {}));
+  CHECK_FALSE(visibility_lattice(uniform(0.05), kArea, StereoNoise(), {}));  // too near
   CHECK(visibility_lattice(uniform(0.5), kArea, StereoNoise(), {}));
 }
 
 TEST_CASE("what is measured beyond the far limit was seen through up to there") {
   const double far = kNear.range().far_m;
-  auto options = options_of(1);
-  const StereoNoise exact{.subpixel_px = 0};
+  const StereoNoise none{.subpixel_px = 0};
   for (const double depth : {far, far + 0.01, 2 * far, 60.0}) {
     CAPTURE(depth);
-    const auto mesh =
-        visibility_lattice(image_of(kNear, [=](int, int) { return depth; }), kArea, exact, options);
+    const auto mesh = visibility_lattice(image_of(kNear, [=](int, int) { return depth; }), kArea,
+                                         none, options_of(1));
     REQUIRE(mesh);
     for (const float z : mesh->depth) CHECK(z == doctest::Approx(far));
   }

@@ -9,6 +9,39 @@
 namespace vantage::volume::detail {
 namespace {
 
+/// Objects hide what is behind them at whatever distance from the camera they are.
+constexpr DepthRange kHidingDepths = {1e-6, 1e9};
+
+/// Which parts of the grid a camera sees past or through boxes in which something has changed.
+class ChangedView {
+ public:
+  ChangedView(const PinholeCamera& camera, std::span<const Extent> changed)
+      : projector_({camera.intrinsics(), camera.T_world_cam(), kHidingDepths}) {
+    for (const Extent& box : changed) {
+      const BoxInView view = projector_.project(box, projector_.margin_m(box));
+      if (view.coverage != Coverage::none) boxes_.push_back(view);
+    }
+  }
+
+  bool empty() const { return boxes_.empty(); }
+
+  /// Whether a line of sight to a point in view of `extent` may meet one of the boxes: it has one
+  /// pixel, and what it meets is nearer than its end.
+  bool concerns(const Extent& extent) const {
+    const BoxInView view = projector_.project(extent, projector_.margin_m(extent));
+    if (view.coverage == Coverage::none) return false;
+    return std::any_of(boxes_.begin(), boxes_.end(), [&](const BoxInView& box) {
+      const ImageRect &a = view.rect, &b = box.rect;
+      return box.z_min <= view.z_max && a.u0 <= b.u1 && b.u0 <= a.u1 && a.v0 <= b.v1 &&
+             b.v0 <= a.v1;
+    });
+  }
+
+ private:
+  BoxProjector projector_;
+  std::vector<BoxInView> boxes_;
+};
+
 class SightTracer {
  public:
   SightTracer(const PinholeCamera& camera, const KnownSpace& known, CameraVisibility& sight)
@@ -24,6 +57,16 @@ class SightTracer {
         [&](const Eigen::Vector3i& block) { trace_block(block); });
   }
 
+  /// Leaves what does not concern the change as it is.
+  void trace(std::size_t chunk, const ChangedView& changed) {
+    const auto decide_if_concerned = [&](const CellRange& blocks) {
+      const auto voxels = known_.frame.layout.voxels_in(blocks);
+      return !changed.concerns(known_.frame.extent_of_centres(voxels)) || decide(blocks);
+    };
+    descend(known_.frame.layout.blocks_in_chunk(chunk), decide_if_concerned,
+            [&](const Eigen::Vector3i& block) { trace_block(block); });
+  }
+
  private:
   bool decide(const CellRange& blocks) {
     const BoxInView box = project(blocks);
@@ -34,7 +77,7 @@ class SightTracer {
     blocks.for_each([&](const Eigen::Vector3i& block) {
       const std::size_t index = known_.frame.layout.index(block);
       sight_.covered.set_all(index);
-      if (!*hidden) sight_.clear.set_all(index);
+      *hidden ? sight_.clear.set(index, {}) : sight_.clear.set_all(index);
     });
     return true;
   }
@@ -47,7 +90,7 @@ class SightTracer {
     if (covered.none()) return;
     if (known_.occluders.empty()) return sight_.clear.set(index, covered);
     const BlockBits open = covered & ~known_.solid.bits(index);
-    if (!open.none()) sight_.clear.set(index, not_hidden(block, open));
+    sight_.clear.set(index, open.none() ? BlockBits{} : not_hidden(block, open));
   }
 
   BoxInView project(const CellRange& blocks) const {
@@ -156,6 +199,19 @@ CameraVisibility trace_sight(const PinholeCamera& camera, const KnownSpace& know
     stop.advance(1);
   });
   return sight;
+}
+
+void retrace_sight(const PinholeCamera& camera, const KnownSpace& known,
+                   std::span<const Extent> changed, const StopToken& stop,
+                   CameraVisibility& sight) {
+  const ChangedView view(camera, changed);
+  if (view.empty()) return;
+  SightTracer tracer(camera, known, sight);
+  tbb::parallel_for(std::size_t(0), known.frame.layout.chunk_count(), [&](std::size_t chunk) {
+    if (stop.stop_requested()) return;
+    tracer.trace(chunk, view);
+    stop.advance(1);
+  });
 }
 
 }  // namespace vantage::volume::detail

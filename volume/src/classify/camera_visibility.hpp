@@ -1,11 +1,13 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "grid/block_set.hpp"
 #include "grid/grid_frame.hpp"
 #include "objects/occluders.hpp"
 #include "objects/silhouette_map.hpp"
+#include "vantage/raycore/detail/box_projector.hpp"
 #include "vantage/raycore/stop_token.hpp"
 
 namespace vantage::volume::detail {
@@ -34,5 +36,12 @@ struct KnownSpace {
 /// @param camera in the grid's frame.
 CameraVisibility trace_sight(const PinholeCamera& camera, const KnownSpace& known,
                              const StopToken& stop);
+
+/// Brings what a camera sees up to date: traces again what it sees past or through the boxes in
+/// which something has changed. That is what tracing all of it gives: whether a voxel is hidden
+/// depends on what its line of sight may meet, and on nothing else.
+/// @param sight traced with what was known before.
+void retrace_sight(const PinholeCamera& camera, const KnownSpace& known,
+                   std::span<const Extent> changed, const StopToken& stop, CameraVisibility& sight);
 
 }  // namespace vantage::volume::detail

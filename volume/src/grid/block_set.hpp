@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "grid/blocks.hpp"
@@ -38,7 +39,6 @@ class BlockSet {
 
   void set_all(std::size_t block) { slots_[block] = kAll; }
 
-  /// Sets are filled once, or grow: a block that was mixed and became uniform stays uniform.
   void set(std::size_t block, const BlockBits& bits) {
     if (bits.none()) {
       slots_[block] = kNone;
@@ -47,15 +47,37 @@ class BlockSet {
     } else if (slots_[block] >= kFirstMixed) {
       mixed_[layout_.chunk_of(block)][slots_[block] - kFirstMixed] = bits;
     } else {
-      std::vector<BlockBits>& mixed = mixed_[layout_.chunk_of(block)];
-      slots_[block] = std::uint8_t(kFirstMixed + mixed.size());
-      mixed.push_back(bits);
+      const std::size_t chunk = layout_.chunk_of(block);
+      if (mixed_[chunk].size() == kBlocksInChunk) forget_uniform(chunk);
+      slots_[block] = std::uint8_t(kFirstMixed + mixed_[chunk].size());
+      mixed_[chunk].push_back(bits);
     }
+  }
+
+  /// Whether a block has the same voxels in another set of this layout.
+  bool same(std::size_t block, const BlockSet& other) const {
+    if (slots_[block] < kFirstMixed || other.slots_[block] < kFirstMixed) {
+      return slots_[block] == other.slots_[block];
+    }
+    return bits(block) == other.bits(block);
   }
 
  private:
   static constexpr std::uint8_t kNone = 0, kAll = 1, kFirstMixed = 2;
-  static_assert(kFirstMixed + kChunkSide * kChunkSide * kChunkSide < 256);
+  static constexpr std::size_t kBlocksInChunk = kChunkSide * kChunkSide * kChunkSide;
+  static_assert(kFirstMixed + kBlocksInChunk < 256);
+
+  /// Drops what is left of blocks that were mixed once.
+  void forget_uniform(std::size_t chunk) {
+    std::vector<BlockBits> mixed;
+    layout_.blocks_in_chunk(chunk).for_each([&](const Eigen::Vector3i& at) {
+      std::uint8_t& slot = slots_[layout_.index(at)];
+      if (slot < kFirstMixed) return;
+      mixed.push_back(mixed_[chunk][slot - kFirstMixed]);
+      slot = std::uint8_t(kFirstMixed + mixed.size() - 1);
+    });
+    mixed_[chunk] = std::move(mixed);
+  }
 
   BlockLayout layout_;
   std::vector<std::uint8_t> slots_;

@@ -25,17 +25,52 @@ std::string open_mesh_warning(const KnownObject& object, const MeshTopology& top
 
 using Topologies = std::map<const TriangleMesh*, std::shared_ptr<const MeshTopology>>;
 
-/// One for each mesh, however many objects share it.
-Topologies topologies_of(const std::vector<const KnownObject*>& objects) {
+/// One for each mesh, however many objects share it; those of meshes known before are taken over.
+Topologies topologies_of(const std::vector<const KnownObject*>& objects,
+                         const KnownObjects* before) {
   Topologies topologies;
   for (const KnownObject* object : objects) topologies.try_emplace(object->mesh.get());
-  std::vector<Topologies::iterator> entries;
-  for (auto entry = topologies.begin(); entry != topologies.end(); ++entry)
-    entries.push_back(entry);
-  tbb::parallel_for(std::size_t(0), entries.size(), [&](std::size_t i) {
-    entries[i]->second = std::make_shared<const MeshTopology>(*entries[i]->first);
+  if (before != nullptr) {
+    for (const PlacedMesh& placed : before->meshes) {
+      const auto found = topologies.find(placed.mesh.get());
+      if (found != topologies.end()) found->second = placed.topology;
+    }
+  }
+  std::vector<Topologies::iterator> missing;
+  for (auto entry = topologies.begin(); entry != topologies.end(); ++entry) {
+    if (entry->second == nullptr) missing.push_back(entry);
+  }
+  tbb::parallel_for(std::size_t(0), missing.size(), [&](std::size_t i) {
+    missing[i]->second = std::make_shared<const MeshTopology>(*missing[i]->first);
   });
   return topologies;
+}
+
+bool same_place(const PlacedMesh& a, const PlacedMesh& b) {
+  return a.mesh == b.mesh && a.T_grid_mesh.translation() == b.T_grid_mesh.translation() &&
+         a.T_grid_mesh.rotation() == b.T_grid_mesh.rotation();
+}
+
+/// The body of an object that has not moved; null if there is none.
+std::shared_ptr<const ObjectBody> body_before(const PlacedMesh& placed,
+                                              const KnownObjects* before) {
+  for (std::size_t i = 0; before != nullptr && i < before->meshes.size(); ++i) {
+    if (same_place(placed, before->meshes[i])) return before->bodies[i];
+  }
+  return nullptr;
+}
+
+std::shared_ptr<const ObjectBody> body_of(const PlacedMesh& placed, const GridFrame& frame) {
+  const PlacedTriangles mesh(placed);
+  auto body = std::make_shared<ObjectBody>();
+  body->voxels = object_voxels(mesh, placed.topology->closure, frame.layout, frame.voxel_size_m);
+  body->surface = surface_octants(mesh, frame.layout, frame.voxel_size_m);
+  if (mesh.triangles.empty()) return body;
+  for (const Eigen::Vector3f& vertex : mesh.vertices) body->bounds.extend(vertex.cast<double>());
+  const Eigen::Vector3d voxel = Eigen::Vector3d::Constant(frame.voxel_size_m);
+  body->bounds.extend(Eigen::Vector3d(body->bounds.min() - voxel));
+  body->bounds.extend(Eigen::Vector3d(body->bounds.max() + voxel));
+  return body;
 }
 
 }  // namespace
@@ -47,11 +82,12 @@ void check_meshes(const WorldModel& world) {
 }
 
 KnownObjects::KnownObjects(const WorldModel& world, const GridFrame& frame,
-                           const Pose& T_grid_world, const StopToken& stop)
+                           const Pose& T_grid_world, const StopToken& stop,
+                           const KnownObjects* before)
     : solid(frame.layout), surface_octants(frame.layout.block_count()) {
   std::vector<const KnownObject*> objects;
   for_each_known(world, [&](const KnownObject& object) { objects.push_back(&object); });
-  const Topologies topologies = topologies_of(objects);
+  const Topologies topologies = topologies_of(objects, before);
   for (const KnownObject* object : objects) {
     const std::shared_ptr<const MeshTopology>& topology = topologies.at(object->mesh.get());
     meshes.push_back({object->mesh, topology, T_grid_world * object->T_world_object});
@@ -60,18 +96,44 @@ KnownObjects::KnownObjects(const WorldModel& world, const GridFrame& frame,
       warnings.push_back(open_mesh_warning(*object, *topology));
     }
   }
-  voxels.resize(objects.size());
+  bodies.resize(objects.size());
   tbb::parallel_for(std::size_t(0), objects.size(), [&](std::size_t i) {
-    if (stop.stop_requested()) return;
-    const PlacedTriangles mesh(meshes[i]);
-    voxels[i] = object_voxels(mesh, meshes[i].topology->closure, frame.layout, frame.voxel_size_m);
-    mark_surface_octants(mesh, frame.layout, frame.voxel_size_m, surface_octants);
+    bodies[i] = body_before(meshes[i], before);
+    if (bodies[i] != nullptr) return;
+    bodies[i] =
+        stop.stop_requested() ? std::make_shared<const ObjectBody>() : body_of(meshes[i], frame);
   });
-  for (const ObjectVoxels& object : voxels) {
-    for (const ObjectVoxels::Block& block : object.blocks) {
+  for (const std::shared_ptr<const ObjectBody>& body : bodies) {
+    for (const ObjectVoxels::Block& block : body->voxels.blocks) {
       solid.set(block.block, solid.bits(block.block) | block.bits);
     }
+    for (const SurfaceOctants::Block& block : body->surface.blocks) {
+      surface_octants[block.block] |= block.octants;
+    }
   }
+}
+
+std::vector<Extent> changed_extents(const KnownObjects& before, const KnownObjects& after) {
+  const std::vector<bool> shared_before = share_geometry(before.meshes),
+                          shared_after = share_geometry(after.meshes);
+  std::vector<Extent> changed;
+  const auto add = [&](const ObjectBody& body) {
+    if (body.bounds.isEmpty()) return;
+    changed.push_back({body.bounds.center(), 0.5 * body.bounds.sizes()});
+  };
+  std::vector<bool> stays(before.meshes.size());
+  for (std::size_t i = 0; i < after.meshes.size(); ++i) {
+    std::size_t j = 0;
+    while (j < stays.size() && (stays[j] || shared_before[j] != shared_after[i] ||
+                                !same_place(before.meshes[j], after.meshes[i]))) {
+      ++j;
+    }
+    j < stays.size() ? void(stays[j] = true) : add(*after.bodies[i]);
+  }
+  for (std::size_t j = 0; j < stays.size(); ++j) {
+    if (!stays[j]) add(*before.bodies[j]);
+  }
+  return changed;
 }
 
 }  // namespace vantage::volume::detail

@@ -30,11 +30,11 @@ std::vector<Facing> facings(const MeshTopology& topology, const Eigen::Vector3d&
 class MeshOccluders final : public Occluders {
  public:
   explicit MeshOccluders(std::vector<PlacedMesh> meshes) : meshes_(std::move(meshes)) {
-    std::map<const TriangleMesh*, int> copies;
-    for (const PlacedMesh& placed : meshes_) ++copies[placed.mesh.get()];
+    const std::vector<bool> shared = share_geometry(meshes_);
     SceneBuilder builder;
-    for (const PlacedMesh& placed : meshes_) {
-      if (copies[placed.mesh.get()] > 1 && placed.mesh->triangles().size() >= kWorthAnInstance) {
+    for (std::size_t i = 0; i < meshes_.size(); ++i) {
+      const PlacedMesh& placed = meshes_[i];
+      if (shared[i]) {
         builder.add_instance(placed.mesh, placed.T_grid_mesh);
       } else {
         builder.add_mesh(placed.mesh->transformed(placed.T_grid_mesh));
@@ -81,6 +81,17 @@ class MeshOccluders final : public Occluders {
 };
 
 }  // namespace
+
+std::vector<bool> share_geometry(const std::vector<PlacedMesh>& meshes) {
+  std::map<const TriangleMesh*, int> copies;
+  for (const PlacedMesh& placed : meshes) ++copies[placed.mesh.get()];
+  std::vector<bool> shared;
+  for (const PlacedMesh& placed : meshes) {
+    shared.push_back(copies[placed.mesh.get()] > 1 &&
+                     placed.mesh->triangles().size() >= kWorthAnInstance);
+  }
+  return shared;
+}
 
 std::unique_ptr<const Occluders> mesh_occluders(std::vector<PlacedMesh> meshes) {
   return std::make_unique<const MeshOccluders>(std::move(meshes));

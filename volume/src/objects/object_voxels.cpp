@@ -1,7 +1,6 @@
 #include "objects/object_voxels.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <limits>
 #include <tuple>
 
@@ -10,6 +9,13 @@
 
 namespace vantage::volume::detail {
 namespace {
+
+/// Numbers the cells of a range, x slowest.
+std::size_t index_in(const CellRange& range, const Eigen::Vector3i& cell) {
+  const Eigen::Vector3i c = cell - range.first, n = range.size();
+  return (std::size_t(c.x()) * std::size_t(n.y()) + std::size_t(c.y())) * std::size_t(n.z()) +
+         std::size_t(c.z());
+}
 
 /// A box of blocks that is filled voxel by voxel, then stripped of the empty ones.
 class BlockBuffer {
@@ -20,25 +26,19 @@ class BlockBuffer {
         bits_(range_.count()) {}
 
   void set(const Eigen::Vector3i& voxel) {
-    bits_[index(voxel / kBlockSide)].set(offset_in_block(voxel));
+    bits_[index_in(range_, voxel / kBlockSide)].set(offset_in_block(voxel));
   }
 
   ObjectVoxels finish() const {
     ObjectVoxels result;
     range_.for_each([&](const Eigen::Vector3i& block) {
-      const BlockBits& bits = bits_[index(block)];
+      const BlockBits& bits = bits_[index_in(range_, block)];
       if (!bits.none()) result.blocks.push_back({layout_.index(block), bits});
     });
     return result;
   }
 
  private:
-  std::size_t index(const Eigen::Vector3i& block) const {
-    const Eigen::Vector3i b = block - range_.first, n = range_.size();
-    return (std::size_t(b.x()) * std::size_t(n.y()) + std::size_t(b.y())) * std::size_t(n.z()) +
-           std::size_t(b.z());
-  }
-
   const BlockLayout& layout_;
   CellRange range_;
   std::vector<BlockBits> bits_;
@@ -130,14 +130,23 @@ ObjectVoxels object_voxels(const PlacedTriangles& mesh, Closure closure, const B
   return buffer.finish();
 }
 
-void mark_surface_octants(const PlacedTriangles& mesh, const BlockLayout& layout,
-                          double voxel_size_m, std::vector<std::uint8_t>& marks) {
-  const CellRange octants{2 * layout.blocks().first, 2 * layout.blocks().last};
-  for_each_cell_touched(
-      mesh, kOctantSide * voxel_size_m, octants, [&](const Eigen::Vector3i& octant) {
-        std::atomic_ref(marks[layout.index(octant / 2)])
-            .fetch_or(std::uint8_t(1u << octant_in_block(octant)), std::memory_order_relaxed);
-      });
+SurfaceOctants surface_octants(const PlacedTriangles& mesh, const BlockLayout& layout,
+                               double voxel_size_m) {
+  const double size_m = kOctantSide * voxel_size_m;
+  const CellRange all{2 * layout.blocks().first, 2 * layout.blocks().last};
+  const CellRange octants = cells_touched(Bounds(mesh), size_m, all);
+  if (mesh.triangles.empty() || octants.empty()) return {};
+  const CellRange blocks{octants.first / 2, (octants.last.array() + 1) / 2};
+  std::vector<std::uint8_t> marks(blocks.count());
+  for_each_cell_touched(mesh, size_m, octants, [&](const Eigen::Vector3i& octant) {
+    marks[index_in(blocks, octant / 2)] |= std::uint8_t(1u << octant_in_block(octant));
+  });
+  SurfaceOctants result;
+  blocks.for_each([&](const Eigen::Vector3i& block) {
+    const std::uint8_t mark = marks[index_in(blocks, block)];
+    if (mark != 0) result.blocks.push_back({layout.index(block), mark});
+  });
+  return result;
 }
 
 }  // namespace vantage::volume::detail

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "grid/block_set.hpp"
@@ -25,13 +26,21 @@ struct ObjectVoxels {
 /// triangle meets a line is decided exactly, and a line through an edge or a vertex is treated as
 /// if it passed infinitesimally beside it, always on the same side: so it meets exactly one of the
 /// triangles that meet there, and no column ever leaks.
-///
 ObjectVoxels object_voxels(const PlacedTriangles& mesh, Closure closure, const BlockLayout& layout,
                            double voxel_size_m);
 
-/// Marks, with one bit for each octant of each block, where a mesh's surface may pass through;
-/// never misses one. May run for several meshes at once.
-void mark_surface_octants(const PlacedTriangles& mesh, const BlockLayout& layout,
-                          double voxel_size_m, std::vector<std::uint8_t>& marks);
+/// Where a mesh's surface may pass through, one bit for each octant of a block; only blocks that
+/// have some, in ascending order.
+struct SurfaceOctants {
+  struct Block {
+    std::size_t block;
+    std::uint8_t octants;
+  };
+  std::vector<Block> blocks;
+};
+
+/// Never misses one.
+SurfaceOctants surface_octants(const PlacedTriangles& mesh, const BlockLayout& layout,
+                               double voxel_size_m);
 
 }  // namespace vantage::volume::detail

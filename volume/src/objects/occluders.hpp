@@ -32,6 +32,10 @@ class Occluders {
   virtual void add_contours(const PinholeCamera& camera, ContourMap& map) const = 0;
 };
 
+/// Which meshes are instances of one geometry in `mesh_occluders`: their triangles are met in their
+/// own frame, so that rays along their edges may round in another way.
+std::vector<bool> share_geometry(const std::vector<PlacedMesh>& meshes);
+
 /// `OccluderMode::mesh`: rays meet the exact triangles.
 std::unique_ptr<const Occluders> mesh_occluders(std::vector<PlacedMesh> meshes);
 

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <vector>
 
 #include "vantage/raycore/depth_image.hpp"
 #include "vantage/raycore/export.hpp"
@@ -13,11 +14,16 @@
 
 namespace vantage {
 
-/// The work area as several cameras see it, kept up to date depth image by depth image.
+/// The work area as several cameras see it, kept up to date change by change.
 ///
-/// What each camera sees past the known objects, and what its depth image adds, are kept apart, so
-/// that a new depth image costs one camera's comparison of depths and no ray at all. `grid()` is
-/// bit for bit what a new ShadowVolume of the same world gives.
+/// What is inside the known objects, what each camera sees past them, and what its depth image adds
+/// are kept apart, so that a change costs what it concerns:
+/// - a new depth image one camera's comparison of depths, and no ray;
+/// - a camera that comes or moves its own rays, one that goes none;
+/// - objects that come, go or move their voxels, and the rays that may meet them where they were or
+///   are.
+/// `grid()` decides only those parts of the work area again of which something else is said now. It
+/// is bit for bit what a new ShadowVolume of the same world gives.
 ///
 /// One thread at a time may call a ShadowVolume; work is split over the caller's task arena. The
 /// grids that it hands out are immutable and independent of it.
@@ -32,8 +38,20 @@ class VANTAGE_API ShadowVolume {
   ShadowVolume(const ShadowVolume&) = delete;
   ShadowVolume& operator=(const ShadowVolume&) = delete;
 
-  /// Replaces what camera `camera` (its index in the world model) measured; null for nothing.
-  /// @throws Error bad_input for an index out of range, or if the image does not fit the camera;
+  /// Cameras have numbers from 0 on: first those of the world model, in its order.
+  std::size_t camera_count() const noexcept;
+
+  /// Adds a camera after all others.
+  /// @returns its number.
+  /// @throws Error bad_input if the image does not fit the camera; nothing has changed then.
+  std::size_t add_camera(const DepthCamera& camera, const StopToken& stop = {});
+
+  /// Takes a camera away, and all that it alone saw with it. Those after it move up by one.
+  /// @throws Error bad_input for a number out of range; nothing has changed then.
+  void remove_camera(std::size_t camera);
+
+  /// Replaces what camera `camera` measured; null for nothing.
+  /// @throws Error bad_input for a number out of range, or if the image does not fit the camera;
   /// nothing has changed then.
   void set_depth(std::size_t camera, std::shared_ptr<const DepthImage> depth,
                  const StopToken& stop = {});
@@ -43,8 +61,14 @@ class VANTAGE_API ShadowVolume {
   void move_camera(std::size_t camera, const Pose& T_world_cam,
                    std::shared_ptr<const DepthImage> depth, const StopToken& stop = {});
 
+  /// Replaces the known objects; static structures stay. One with the same mesh (the same pointer)
+  /// at the same pose has not changed.
+  /// @throws Error bad_input for an object without a mesh; nothing has changed then.
+  void set_objects(std::vector<KnownObject> objects, const StopToken& stop = {});
+
   /// The state of every voxel now; null while something that was stopped has not been done again:
-  /// for a camera `set_depth` or `move_camera`, for the construction a new volume.
+  /// for a camera's depth `set_depth`, for a camera `move_camera` (or it is removed), for objects
+  /// `set_objects`, for the construction a new volume. If nothing has changed, the same grid again.
   std::shared_ptr<const StateGrid> grid() const;
 
  private:
