@@ -140,7 +140,8 @@ TEST_CASE("options that make no sense are bad input") {
   expect_failure(scene + " --work-area 0 0 0 1 1 0", 3, {"--work-area"});
   expect_failure(scene + test::kSceneArea + " --depth-range 3 1", 3, {"--depth-range"});
   expect_failure(scene + test::kSceneArea + " --images 9", 3, {"9"});
-  expect_failure(scene + " --work-area 0 0 0 1 1 1 --voxel-size -1", 2, {"--voxel-size", "found '-1'", "above 0"});
+  expect_failure(scene + " --work-area 0 0 0 1 1 1 --voxel-size -1", 2,
+                 {"--voxel-size", "found '-1'", "above 0"});
   expect_failure(scene + " --work-area 0 0 0 1 1 1 --voxel-size 0.0001", 6, {"voxel size"});
 }
 

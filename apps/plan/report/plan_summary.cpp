@@ -36,7 +36,7 @@ std::string pose_text(const Pose& T_world_cam) {
   matrix.topRightCorner<3, 1>() = T_world_cam.translation();
   for (int row = 0; row < 4; ++row) {
     text +=
-        fmt::format("{:<11}[{:9.6f}, {:9.6f}, {:9.6f}, {:9.6f}]\n", row == 0 ? "T_world_cam" : "",
+        fmt::format("{:<12}[{:9.6f}, {:9.6f}, {:9.6f}, {:9.6f}]\n", row == 0 ? "T_world_cam" : "",
                     matrix(row, 0), matrix(row, 1), matrix(row, 2), matrix(row, 3));
   }
   return text;
@@ -75,6 +75,47 @@ std::string origin_text(const Plan& plan, const RankedView& view) {
 
 std::string best_summary(const Plan& plan) {
   const RankedView& best = *plan.best();
+  std::string text = fmt::format(
+      "next view  {}\n"
+      "camera     {}\n"
+      "{}"
+      "reveals    {}\n",
+      origin_text(plan, best), camera_text(best.T_world_cam), pose_text(best.T_world_cam),
+      reveals_text(plan, plan.views.front().revealed_voxels));
+  if (!std::holds_alternative<VoxelMethod>(plan.request.method)) {
+    text += fmt::format("score      {:.6g} {} (method {})\n", plan.in_units(best.score),
+                        plan.score_unit_name, name_of(plan.request.method));
+  }
+  text += shortlist_text(plan);
+  std::uint64_t revealed = plan.views.front().revealed_voxels;
+  for (std::size_t i = 1; i < plan.views.size(); ++i) {
+    const NextView& next = plan.views[i];
+    revealed += next.revealed_voxels;
+    text +=
+        fmt::format("view {:<6}candidate {} {}\n           reveals {} more\n", i + 1,
+                    plan.candidates[next.view.candidate].view.id,
+                    camera_text(next.view.T_world_cam), reveals_text(plan, next.revealed_voxels));
+  }
+  if (plan.views.size() > 1) {
+    text += fmt::format("together   {}\n", reveals_text(plan, revealed));
+  }
+  return text;
+}
+
+std::string no_view_summary(const Plan& plan) {
+  if (plan.stopped != StopReason::none) return "stopped before any score\n";
+  const bool all_rejected = std::all_of(
+      plan.candidates.begin(), plan.candidates.end(),
+      [](const ScoredCandidate& candidate) { return candidate.rejected != InvalidReason::none; });
+  if (all_rejected) return "no feasible view: every candidate was rejected\n";
+  if (plan.classified->count(VoxelState::shadow) == 0) return "no view: there is no shadow\n";
+  return "no view: none of the candidates reveals any shadow\n";
+}
+
+std::string shadow_summary(const StateGrid& grid, const ShadowRegions& regions) {
+  const double voxel_m3 = grid.geometry().voxel_volume_m3();
+  const std::uint64_t unmeasured = grid.report().unmeasured_shadow;
+  const std::uint64_t outside = grid.report().outside_shadow;
   const std::uint64_t hidden = grid.count(VoxelState::shadow) - unmeasured - outside;
   std::string text = fmt::format(
       "shadow     {} hidden, {} without a reading, {} outside all images; {} {}",

@@ -1,5 +1,5 @@
-// What is close to a point or a box, by Embree's point queries.
-// Whether a point is inside of something.
+// What is close to a point or a box, by Embree's point queries; and whether a point is inside a
+// solid.
 #include <fmt/format.h>
 
 #include <algorithm>

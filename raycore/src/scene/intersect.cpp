@@ -1,6 +1,5 @@
-// Closest hits, and the depth image that follows from them.
-// First hits of tiles of pixels: a camera and the tiles' places in, depths and objects out. Leaner
-// than closest_hits, which reads directions from memory and writes normals to it.
+// Closest hits, in two ways: of any rays, with normals, directions being read from memory; and of
+// tiles of a camera's pixels, with no more than depths and objects, which is leaner.
 #include <fmt/format.h>
 
 #include <algorithm>

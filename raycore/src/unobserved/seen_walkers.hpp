@@ -1,6 +1,6 @@
 // Sixteen rays on their way through what was seen: where they start, how they go on to where a
-// volume ends, and what is told of them when they stand still.
-// The shell as a volume of the walk: outside of it everything counts as seen.
+// volume ends, and what is told of them when they stand still. One of the volumes is the shell:
+// outside of it everything counts as seen.
 #pragma once
 
 #include <cstdint>

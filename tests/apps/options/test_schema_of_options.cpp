@@ -33,6 +33,7 @@ void check_each(const std::string& folder, const FieldGroup& group) {
 TEST_CASE("the workcell's schema has the fields of the options, word for word") {
   VolumeOptions volume;
   check_same("/properties/volume/properties", properties_of(fields_of(volume)));
+  CHECK(properties_of(fields_of(volume)).size() == 4);
   ViewOptions views;
   check_same("/properties/plan/properties", properties_of(fields_of(views)));
   double voxel_size_m = 0.009375;

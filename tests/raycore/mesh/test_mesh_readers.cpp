@@ -92,7 +92,7 @@ TEST_CASE("the ending counts in any case") {
   expect_tetrahedron(read_bytes("A.Ply", test::ply("ascii")));
 }
 
-TEST_CASE("faces without area are dropped and counted") {
+TEST_CASE("readers drop faces without area and count them") {
   const TriangleMesh mesh = read_bytes("a.obj", test::obj_text() + "f 1 1 2\n");
   CHECK(mesh.triangles().size() == 4);
   CHECK(mesh.dropped_degenerate() == 1);

@@ -38,7 +38,7 @@ TEST_CASE("types that are none are refused") {
                  {"(0, nan, 0)", "finite"});
 }
 
-TEST_CASE("features that are none are refused") {
+TEST_CASE("invalid features of a type are rejected") {
   const FeatureKey key{"keypoint", "spout"};
   expect_feature_refused({cube_marker(1), {key, FeaturePoints{}}}, "tin.features[1]",
                          {"no points"});

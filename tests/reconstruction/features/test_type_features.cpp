@@ -9,7 +9,7 @@ namespace vantage::test {
 
 namespace fs = std::filesystem;
 
-TEST_CASE("features that are none are refused") {
+TEST_CASE("invalid features in a file are rejected") {
   const std::string good = "dictionary: 4X4_50, value: 3, size_m: 0.04";
   expect_type_refused(with_marker(good), "types.yaml:3: object_types[0].features[0]",
                       {"exactly one of the keys \"face\", \"pose\""});

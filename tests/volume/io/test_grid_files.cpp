@@ -20,7 +20,8 @@ namespace fs = std::filesystem;
 /// Larger than a tile of 128³ voxels, and no multiple of a block.
 std::shared_ptr<const StateGrid> some_grid() {
   return test::make_grid(test::geometry_of(141, 133, 130), [](const Eigen::Vector3i& v) {
-    if (v.x() < 130) return test::MadeVoxel{VoxelState::shadow, false, test::outside_if(v.y() < 70)};
+    if (v.x() < 130)
+      return test::MadeVoxel{VoxelState::shadow, false, test::outside_if(v.y() < 70)};
     return test::random_voxels(8)(v);
   });
 }

@@ -54,7 +54,8 @@ std::size_t compare(const StateGrid& grid) {
 /// Shadow in a share of the voxels, at random; blocks in uniform surroundings are tiles.
 std::shared_ptr<const StateGrid> noise(std::uint32_t seed, std::uint32_t percent) {
   return make_grid(geometry_of(29, 24, 35), [=](const Eigen::Vector3i& v) -> test::MadeVoxel {
-    if (v.x() >= 8 && v.x() < 16) return {VoxelState::shadow, false, test::outside_if(v.y() < 9)};  // whole blocks
+    if (v.x() >= 8 && v.x() < 16)
+      return {VoxelState::shadow, false, test::outside_if(v.y() < 9)};  // whole blocks
     const Eigen::Vector3i key(v.x() + 64 * int(seed), v.y(), v.z());
     std::uint32_t h = 0;
     for (const int c : {key.x(), key.y(), key.z()}) h = (h ^ std::uint32_t(c)) * 2654435761u;
