@@ -185,7 +185,8 @@ TEST_CASE("a known object that the depth image sees through, and a mesh that is 
   CHECK(ghost["object_volume_m3"].get<double>() ==
         doctest::Approx(0.1 * 0.04 * 0.06).scale(0).epsilon(1e-6));
   const auto text = run_vantage(plan);
-  CHECK(text.out.find("conflict   ghost: depth images see through 0.0002") != std::string::npos);
+  CHECK(text.out.find("conflict   ghost: depth images see through 2") != std::string::npos);
+  CHECK(text.out.find(" cm³ of its 240 cm³\n") != std::string::npos);
 }
 
 TEST_CASE("a deadline gives what is there by then, and exit code 5") {
