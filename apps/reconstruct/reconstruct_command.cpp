@@ -124,6 +124,12 @@ void add_reconstruct_command(CLI::App& app, Action& action) {
       ->group("Output");
   add_json_flag(*verb, command->json, "world.json");
   add_threads_option(*verb, command->threads);
+  verb->footer(
+      "Examples:\n"
+      "  vantage reconstruct my_cell --workcell cell.yaml -o out\n"
+      "  vantage reconstruct my_cell --workcell cell.yaml --cameras board --images 0,2 -o out\n"
+      "  vantage reconstruct my_cell --workcell cell.yaml --features seen.jsonl --method voting -o "
+      "out");
   verb->parse_complete_callback(
       [&action, command] { action = [=] { return reconstruct_command(*command); }; });
 }

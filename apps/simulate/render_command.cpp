@@ -123,6 +123,12 @@ void add_render_command(CLI::App& app, Action& action) {
       ->check(CLI::Range(1, 4096))
       ->capture_default_str();
   add_threads_option(*verb, options->threads);
+  verb->footer(
+      "Examples:\n"
+      "  vantage render assets/workcells/castle.yaml -o castle.png\n"
+      "  vantage render assets/workcells/corridor.yaml --camera left --samples 16 -o left.jpg\n"
+      "  vantage render assets/workcells/wall.yaml assets/workcells/duck.yaml --contact-sheet -o "
+      "s.jpg");
   verb->parse_complete_callback([&action, options] { action = [=] { return render(*options); }; });
 }
 

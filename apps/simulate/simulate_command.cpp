@@ -143,6 +143,12 @@ void add_simulate_command(CLI::App& app, Action& action) {
   add_depth_options(*verb, *options);
   add_json_flag(*verb, options->json, "simulation.json");
   add_threads_option(*verb, options->threads);
+  verb->footer(
+      "Examples:\n"
+      "  vantage simulate assets/workcells/castle.yaml -o castle\n"
+      "  vantage simulate assets/workcells/clutter.yaml --objects 20 --types red_cube --seed 7 -o "
+      "c\n"
+      "  vantage simulate assets/workcells/duck.yaml --ideal-depth --samples 64 -o duck");
   verb->parse_complete_callback(
       [&action, options] { action = [=] { return simulate(*options); }; });
 }
