@@ -118,6 +118,23 @@ TEST_CASE("depth beyond the far limit is a reading: free up to there, and no sur
   CHECK(grid->report().unmeasured_shadow == 0);
 }
 
+TEST_CASE("a reading a little beyond the far limit leaves its band in shadow, not occupied") {
+  const PinholeCamera camera(kCamera.intrinsics(), kCamera.T_world_cam(), {0.1, 0.5});
+  const StereoNoise noise{.subpixel_px = 0.8};  // half the band is 19 mm at half a metre
+  const auto at = [&](float metres) {
+    WorldModel world;
+    world.cameras.push_back(
+        {"front", camera,
+         std::make_shared<DepthImage>(64, 48, std::vector<float>(64 * 48, metres))});
+    return classify(world, cube_grid(), {.noise = noise});
+  };
+  const auto beyond = at(0.501f), before = at(0.499f);
+  CHECK(before->count(VoxelState::occupied) > 0);
+  CHECK(beyond->count(VoxelState::occupied) == 0);
+  CHECK(beyond->count(VoxelState::free) > 0);
+  CHECK(beyond->count(VoxelState::shadow) > before->count(VoxelState::shadow));
+}
+
 TEST_CASE("what one camera sees through is free, whatever another one measured there") {
   const PinholeCamera from_side(kCamera.intrinsics(), Pose::looking_at({-0.5, 0, 0.1}, {0, 0, 0.1}),
                                 {0.1, 2});
