@@ -60,7 +60,7 @@ struct DemoOptions {
 ExitCode demo(const DemoOptions& options) {
   const auto start = StopToken::Clock::now();
   const RunOptions run = options.common.run(start);
-  const SignalHandler interrupt({run.stop, run.drawing});
+  const SignalHandler interrupt(run.tokens());
   PlanRequest request = demo_request();
   read_given(options.given, {"", "", {voxel_size_field(request.voxel_size_m)}});
   PlanRecord record;

@@ -41,7 +41,9 @@ void add_output_options(CLI::App& verb, PlanCommandOptions& options) {
           "why they lost")
       ->delimiter(',')
       ->group("Output");
-  verb.add_flag("--pictures", output.pictures, "Write overview.png and view.png")
+  verb.add_flag(
+          "--pictures", output.pictures,
+          "Write overview.png, and what each suggested camera would see: view.png, view_2.png …")
       ->needs(verb.get_option("--output"))
       ->group("Output");
 }
@@ -49,7 +51,7 @@ void add_output_options(CLI::App& verb, PlanCommandOptions& options) {
 ExitCode plan(const PlanCommandOptions& options) {
   const auto start = StopToken::Clock::now();
   const RunOptions run = options.common.run(start);
-  const SignalHandler interrupt({run.stop, run.drawing});
+  const SignalHandler interrupt(run.tokens());
   PlanInput input = Workers(options.common.threads).execute([&] {
     return load_plan_input(options.plan, run.stop);
   });

@@ -10,6 +10,7 @@
 #include "cli/workers.hpp"
 #include "plan/report/plan_pictures.hpp"
 #include "plan/report/plan_summary.hpp"
+#include "plan/report/write_pictures.hpp"
 #include "vantage/planner/advanced/mesh_scorer.hpp"
 #include "vantage/raycore/detail/file.hpp"
 #include "vantage/raycore/error.hpp"
@@ -40,7 +41,8 @@ TriangleMesh unseen_surface_of(const Plan& plan, const WorldModel& world,
 }
 
 void write_extras(const Plan& plan, const ShadowRegions& regions, const WorldModel& world,
-                  const OutputOptions& output, const StopToken& stop) {
+                  const OutputOptions& output, const RunOptions& run) {
+  const StopToken& stop = run.drawing;
   const auto write = [&](bool wanted, const char* name, const auto& writer) {
     if (!wanted || stop.stop_requested()) return;
     writer(output.folder / name);
@@ -59,10 +61,10 @@ void write_extras(const Plan& plan, const ShadowRegions& regions, const WorldMod
         [&](const fs::path& p) { write_ply(p, unseen_surface_of(plan, world, *mesh)); });
   write(output.save_scene, "scene.glb",
         [&](const fs::path& p) { write_scene_model(p, plan, world); });
-  write(output.pictures, "overview.png",
-        [&](const fs::path& p) { write_overview(p, plan, world, output.picture_width, stop); });
-  write(output.pictures && !plan.views.empty(), "view.png",
-        [&](const fs::path& p) { write_suggested_view(p, plan, stop); });
+  if (output.pictures && !stop.stop_requested()) {
+    write_pictures(output.folder, plan, world,
+                   {output.picture_width, output.picture_quality, run.drawing_in_time, stop});
+  }
 }
 
 void warn_of(const Plan& plan) {
@@ -126,7 +128,7 @@ ExitCode run_plan(const WorldModel& world, const PlanRequest& request, PlanRecor
   }
   std::cout << (output.json ? json : summary_of(plan, found, explained)) << std::flush;
   if (regions) {
-    workers.execute([&] { write_extras(plan, *regions, world, output, run.drawing); });
+    workers.execute([&] { write_extras(plan, *regions, world, output, run); });
   }
   if (run.drawing.stop_requested()) return ExitCode::cancelled;
   return exit_code_of(plan);

@@ -2,6 +2,7 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 
 #include "cli/command.hpp"
@@ -11,6 +12,7 @@
 #include "cli/signal_handler.hpp"
 #include "cli/workers.hpp"
 #include "simulator/color/color_sensor.hpp"
+#include "simulator/scene/resized_camera.hpp"
 #include "simulator/sheet/contact_sheet.hpp"
 #include "workcell/simulated_cell.hpp"
 
@@ -60,6 +62,18 @@ std::optional<ColorImage> photograph(const SimulatedCell& cell, const CellCamera
                         stop);
 }
 
+/// The camera with as few pixels as its thumbnail on the sheet has: samples of more would only be
+/// averaged.
+CellCamera as_thumbnail(CellCamera camera) {
+  const int room = ContactSheetOptions().cell_width;
+  const Intrinsics& k = camera.camera.intrinsics();
+  const double scale = std::min(double(room) / k.width, 0.75 * room / k.height);
+  if (scale >= 1) return camera;
+  const auto scaled = [&](int pixels) { return std::max(1, int(std::lround(scale * pixels))); };
+  camera.camera = resized_camera(camera.camera, scaled(k.width), scaled(k.height));
+  return camera;
+}
+
 std::optional<ColorImage> sheet(const RenderOptions& options, const StopToken& stop) {
   std::vector<Subject> subjects;
   std::uint64_t total = 0;
@@ -72,7 +86,7 @@ std::optional<ColorImage> sheet(const RenderOptions& options, const StopToken& s
   for (const Subject& subject : subjects) {
     const SimulatedCell cell = simulated_cell(subject.workcell);
     for (const CellCamera& camera : subject.workcell.cameras) {
-      auto image = photograph(cell, camera, options, stop);
+      auto image = photograph(cell, as_thumbnail(camera), options, stop);
       if (!image) return std::nullopt;
       pictures.push_back({subject.name, camera.name, std::move(*image)});
       stop.advance(1);
@@ -119,7 +133,8 @@ void add_render_command(CLI::App& app, Action& action) {
   verb->add_flag("--contact-sheet", options->contact_sheet,
                  "All cameras of all workcells on one picture")
       ->excludes("--camera");
-  verb->add_option("--samples", options->samples, "Rays through each pixel")
+  verb->add_option("--samples", options->samples,
+                   "Rays through each pixel; with --contact-sheet, of the thumbnails")
       ->check(CLI::Range(1, 4096))
       ->capture_default_str();
   add_threads_option(*verb, options->threads);

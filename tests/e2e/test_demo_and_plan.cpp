@@ -296,4 +296,33 @@ TEST_CASE("a real Kinect recording: the suggested camera looks at the back of wh
   CHECK(plan["volumes_m3"]["occupied"].get<double>() > 0.0003);
 }
 
+TEST_CASE("pictures of several views, as drafts, are the same at any number of threads") {
+  const test::TemporaryFolder folder;
+  const std::string plan = "plan" + test::quoted(test::write_scene(folder)) + test::kSceneArea +
+                           " --views 2 --pictures --picture-quality draft --picture-width 500";
+  const fs::path one = folder / "one", three = folder / "three";
+  const auto result = run_vantage(plan + " --threads 1 -o" + test::quoted(one));
+  CAPTURE(result.err);
+  REQUIRE(result.exit_code == 0);
+  REQUIRE(run_vantage(plan + " --threads 3 -o" + test::quoted(three)).exit_code == 0);
+  for (const char* name : {"overview.png", "view.png", "view_2.png"}) {
+    CAPTURE(name);
+    CHECK(test::read_text(one / name) == test::read_text(three / name));
+    CHECK(result.err.find(std::string("/") + name) != std::string::npos);
+  }
+  CHECK(std::distance(fs::directory_iterator(one), fs::directory_iterator()) == 4);
+  CHECK(run_vantage(plan + "y -o" + test::quoted(one)).exit_code == 2);  // no such width
+  CHECK(run_vantage("demo --picture-quality good -o" + test::quoted(one)).exit_code == 2);
+}
+
+TEST_CASE("what a deadline leaves no time for is drawn as a draft, and that is said") {
+  const test::TemporaryFolder folder;
+  const auto result = run_vantage("demo --threads 1 --picture-width 2400 --deadline-ms 900 -o" +
+                                  test::quoted(folder.path()));
+  CAPTURE(result.err);
+  CHECK((result.exit_code == 0 || result.exit_code == 5));
+  CHECK(result.err.find("the deadline has passed: drawing") != std::string::npos);
+  CHECK(read_color(folder / "overview.png").width == 2400);
+}
+
 }  // namespace vantage

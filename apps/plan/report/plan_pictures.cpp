@@ -1,15 +1,19 @@
 #include "plan/report/plan_pictures.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <opencv2/imgproc.hpp>
 #include <utility>
 #include <vector>
 
+#include "plan/report/picture_legend.hpp"
 #include "plan/report/plan_shapes.hpp"
+#include "simulator/scene/resized_camera.hpp"
 #include "vantage/raycore/advanced/picture.hpp"
 #include "vantage/raycore/advanced/scene_builder.hpp"
-#include "vantage/raycore/image_io.hpp"
 #include "vantage/raycore/mesh_io.hpp"
 
 namespace vantage {
@@ -66,26 +70,50 @@ PinholeCamera overview_camera(const Plan& plan, const WorldModel& world, int wid
 namespace {
 
 const Eigen::Vector3f kFloor(0.90f, 0.90f, 0.91f);
-constexpr int kSamplesPerPixel = 64;
 
-/// The mean of two pictures of one size, `share` of it from the first.
-ColorImage blended(const ColorImage& a, const ColorImage& b, double share) {
-  ColorImage result = a;
-  for (std::size_t i = 0; i < result.samples.size(); ++i) {
-    result.samples[i] =
-        std::uint8_t(std::lround(share * a.samples[i] + (1 - share) * b.samples[i]));
+/// Pictures of one size, each with its share of their mean.
+class Blend {
+ public:
+  void add(const ColorImage& image, double share) {
+    if (sums_.empty()) {
+      result_ = image;
+      sums_.assign(image.samples.size(), kOne / 2);
+    }
+    const auto part = std::uint32_t(std::lround(share * kOne));
+    for (std::size_t i = 0; i < sums_.size(); ++i) sums_[i] += part * image.samples[i];
   }
+
+  ColorImage image() && {
+    for (std::size_t i = 0; i < sums_.size(); ++i) {
+      result_.samples[i] = std::uint8_t(std::min(255u, sums_[i] / kOne));
+    }
+    return std::move(result_);
+  }
+
+ private:
+  static constexpr std::uint32_t kOne = 1u << 16;
+  ColorImage result_;
+  std::vector<std::uint32_t> sums_;
+};
+
+ColorImage enlarged(ColorImage image, int width, int height) {
+  if (image.width == width && image.height == height) return image;
+  ColorImage result(width, height);
+  cv::Mat3b small(image.height, image.width, reinterpret_cast<cv::Vec3b*>(image.samples.data()));
+  cv::Mat3b large(height, width, reinterpret_cast<cv::Vec3b*>(result.samples.data()));
+  cv::resize(small, large, large.size(), 0, 0, cv::INTER_CUBIC);
   return result;
 }
 
 /// A scene to draw, with its objects' looks.
 class Stage {
  public:
-  explicit Stage(const Plan& plan) : plan_(plan) {}
+  Stage(const Plan& plan, PictureQuality quality) : plan_(plan), quality_(quality) {}
 
   void add_voxels() {
     const GridGeometry& geometry = plan_.grid->geometry();
     for (const ColoredMesh& part : voxel_meshes(*plan_.grid)) {
+      if (part.mesh.empty()) continue;
       Material material{part.color};
       material.line_spacing_m = float(geometry.voxel_size_m());
       material.line_width_m = 0.1f * material.line_spacing_m;
@@ -102,10 +130,17 @@ class Stage {
     }
   }
 
+  void add_structures(const WorldModel& world) {
+    for (const ColoredMesh& part : structure_meshes(plan_, world)) {
+      structures_.push_back({part.mesh, {part.color}});
+      structure_opacity_ = double(part.opacity);
+    }
+  }
+
   void add_floor() {
     const double scale = scale_of(plan_), side = 40 * scale;
     const Eigen::Vector3d centre = plan_.request.work_area.centre();
-    const double top = std::min(0.0, plan_.request.work_area.min().z()) - 1e-3 * scale;
+    const double top = floor_height(plan_);
     Material material{kFloor};
     material.line_spacing_m = 0.1f;
     material.line_width_m = 0.002f;
@@ -118,15 +153,24 @@ class Stage {
     props_.push_back({TriangleMesh::from_box(slab), material});
   }
 
-  /// Draws everything, and once more without what is half transparent, and lays one over the other.
+  std::uint64_t steps(const PinholeCamera& camera) const {
+    const Intrinsics k = drawn(camera).intrinsics();
+    return layers().size() * picture_steps(k.width, k.height);
+  }
+
+  /// Draws what is there with and without what is half transparent, and lays one over the other.
   /// @returns nothing if it was stopped.
   std::optional<ColorImage> draw(const PinholeCamera& camera, const StopToken& stop) const {
-    std::vector<Prop> all = props_;
-    all.insert(all.end(), veil_.begin(), veil_.end());
-    const auto with_veil = picture(all, camera, opacity_, stop);
-    const auto without = picture(props_, camera, 1 - opacity_, stop);
-    if (!with_veil || !without) return std::nullopt;
-    return blended(*with_veil, *without, opacity_);
+    Blend blend;
+    for (const Layer& layer : layers()) {
+      std::vector<Prop> props = props_;
+      if (layer.more) props.insert(props.end(), layer.more->begin(), layer.more->end());
+      const auto image = picture(props, drawn(camera), stop);
+      if (!image) return std::nullopt;
+      blend.add(*image, layer.share);
+    }
+    const Intrinsics& k = camera.intrinsics();
+    return enlarged(std::move(blend).image(), k.width, k.height);
   }
 
  private:
@@ -135,11 +179,37 @@ class Stage {
     Material material;
   };
 
-  /// `share` of the samples is enough for a picture that is `share` of the result.
+  struct Layer {
+    double share;  ///< of the picture
+    const std::vector<Prop>* more;
+  };
+
+  /// Each half transparent part for its share, and the rest without any of them.
+  std::vector<Layer> layers() const {
+    std::vector<Layer> layers;
+    double rest = 1;
+    const auto add = [&](const std::vector<Prop>& part, double opacity) {
+      if (part.empty()) return;
+      layers.push_back({opacity, &part});
+      rest -= opacity;
+    };
+    add(veil_, opacity_);
+    add(structures_, structure_opacity_);
+    layers.push_back({rest, nullptr});
+    return layers;
+  }
+
+  /// A draft has half as many pixels along each side, and is enlarged.
+  PinholeCamera drawn(const PinholeCamera& camera) const {
+    if (quality_ == PictureQuality::final) return camera;
+    const Intrinsics& k = camera.intrinsics();
+    return resized_camera(camera, (k.width + 1) / 2, (k.height + 1) / 2);
+  }
+
   std::optional<ColorImage> picture(const std::vector<Prop>& props, const PinholeCamera& camera,
-                                    double share, const StopToken& stop) const {
+                                    const StopToken& stop) const {
     PictureOptions options;
-    options.samples_per_pixel = int(std::lround(kSamplesPerPixel * share));
+    if (quality_ == PictureQuality::draft) options.first_samples = 2, options.samples_per_pixel = 8;
     options.sky_reach_m = float(1.2 * scale_of(plan_));
     // From above, over the viewer's left shoulder: what is seen is lit, and shadows fall aside.
     const Eigen::Matrix3d& R = camera.T_world_cam().rotation();
@@ -156,40 +226,87 @@ class Stage {
   }
 
   const Plan& plan_;
+  PictureQuality quality_;
   std::vector<Prop> props_;
-  std::vector<Prop> veil_;  ///< what is drawn half transparent: one sees what stands inside
-  double opacity_ = 1;      ///< of the veil
+  std::vector<Prop> veil_;        ///< what is drawn half transparent: one sees what stands inside
+  std::vector<Prop> structures_;  ///< what is drawn faintly
+  double opacity_ = 1, structure_opacity_ = 0;
 };
+
+/// The overview without words on it.
+struct Scenery {
+  Stage stage;
+  PinholeCamera camera;
+
+  Scenery(const Plan& plan, const WorldModel& world, int width, PictureQuality quality)
+      : stage(plan, quality), camera(overview_camera(plan, world, width)) {
+    stage.add_voxels();
+    stage.add_cameras(world);
+    stage.add_structures(world);
+    stage.add_floor();
+  }
+};
+
+std::string view_name(std::size_t view) {
+  return view == 0 ? "view.png" : fmt::format("view_{}.png", view + 1);
+}
 
 }  // namespace
 
 std::optional<ColorImage> overview(const Plan& plan, const WorldModel& world, int width,
                                    const StopToken& stop) {
-  Stage stage(plan);
-  stage.add_voxels();
-  stage.add_cameras(world);
-  stage.add_floor();
-  return stage.draw(overview_camera(plan, world, width), stop);
+  const Scenery scenery(plan, world, width, PictureQuality::final);
+  stop.expect(scenery.stage.steps(scenery.camera));
+  return scenery.stage.draw(scenery.camera, stop);
 }
 
-void write_overview(const std::filesystem::path& path, const Plan& plan, const WorldModel& world,
-                    int width, const StopToken& stop) {
-  if (const auto image = overview(plan, world, width, stop)) write_png(path, *image);
-}
+struct PlanPictures::Picture {
+  std::string name;
+  Stage stage;
+  PinholeCamera camera;
+  bool is_overview;
+};
 
-void write_suggested_view(const std::filesystem::path& path, const Plan& plan,
-                          const StopToken& stop) {
-  Stage stage(plan);
+PlanPictures::PlanPictures(const Plan& plan, const WorldModel& world, int width,
+                           PictureQuality quality)
+    : plan_(plan), world_(world) {
+  Scenery scenery(plan, world, width, quality);
+  pictures_.push_back({"overview.png", std::move(scenery.stage), scenery.camera, true});
+  Stage stage(plan, quality);
   stage.add_voxels();
   stage.add_floor();
-  const auto image = stage.draw(suggested_cameras(plan).at(0), stop);
-  if (image) write_png(path, *image);
+  const std::vector<PinholeCamera> views = suggested_cameras(plan);
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    pictures_.push_back({view_name(i), stage, views[i], false});
+  }
+}
+
+PlanPictures::~PlanPictures() = default;
+
+std::size_t PlanPictures::count() const {
+  return pictures_.size();
+}
+
+const std::string& PlanPictures::name(std::size_t picture) const {
+  return pictures_[picture].name;
+}
+
+std::uint64_t PlanPictures::steps(std::size_t picture) const {
+  return pictures_[picture].stage.steps(pictures_[picture].camera);
+}
+
+std::optional<ColorImage> PlanPictures::draw(std::size_t picture, const StopToken& stop) const {
+  const Picture& wanted = pictures_[picture];
+  std::optional<ColorImage> image = wanted.stage.draw(wanted.camera, stop);
+  if (image && wanted.is_overview) add_legend(*image, plan_, world_, wanted.camera);
+  return image;
 }
 
 void write_scene_model(const std::filesystem::path& path, const Plan& plan,
                        const WorldModel& world) {
   std::vector<ColoredMesh> meshes = voxel_meshes(*plan.grid);
   for (ColoredMesh& mesh : camera_meshes(plan, world)) meshes.push_back(std::move(mesh));
+  for (ColoredMesh& mesh : structure_meshes(plan, world)) meshes.push_back(std::move(mesh));
   write_glb(path, meshes);
 }
 

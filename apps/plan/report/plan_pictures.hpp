@@ -1,7 +1,10 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "vantage/planner/plan.hpp"
 #include "vantage/raycore/camera.hpp"
@@ -17,20 +20,45 @@ namespace vantage {
 PinholeCamera overview_camera(const Plan& plan, const WorldModel& world, int width);
 
 /// Pictures of a plan that has a grid. Occupied voxels are green, shadow red, what the suggested
-/// view reveals cyan and half transparent, the given cameras grey, the suggested one red.
+/// views reveal cyan and half transparent, the given cameras grey, the suggested ones red. What
+/// stands outside the work area is faint.
 
-/// The work area from outside, with all cameras and their frusta; `width` × 5/8 `width` pixels.
-/// Nothing if it was stopped.
+enum class PictureQuality {
+  draft,  ///< half of the pixels along each side, enlarged, and few samples of them
+  final,
+};
+
+/// The work area from outside, with all cameras and their frusta, but without words;
+/// `width` × 5/8 `width` pixels. Nothing if it was stopped.
 std::optional<ColorImage> overview(const Plan& plan, const WorldModel& world, int width,
                                    const StopToken& stop = {});
-void write_overview(const std::filesystem::path& path, const Plan& plan, const WorldModel& world,
-                    int width, const StopToken& stop = {});
 
-/// What the suggested camera would see. Needs a plan with a best view.
-void write_suggested_view(const std::filesystem::path& path, const Plan& plan,
-                          const StopToken& stop = {});
+/// All pictures of a plan: overview.png, with a legend and, if there are several, the numbers of
+/// the suggested cameras; view.png, what the first of them would see; view_2.png and so on of the
+/// others. Refers to the plan and the world. To be used in the caller's task arena.
+class PlanPictures {
+ public:
+  /// @param width of the overview, pixels; views have the camera's size.
+  PlanPictures(const Plan& plan, const WorldModel& world, int width, PictureQuality quality);
+  ~PlanPictures();
 
-/// The overview as a glTF model, to turn around in a viewer.
+  std::size_t count() const;
+  const std::string& name(std::size_t picture) const;
+
+  /// By how much `draw` advances its token; to expect it is up to the caller.
+  std::uint64_t steps(std::size_t picture) const;
+
+  /// Nothing if it was stopped.
+  std::optional<ColorImage> draw(std::size_t picture, const StopToken& stop) const;
+
+ private:
+  struct Picture;
+  const Plan& plan_;
+  const WorldModel& world_;
+  std::vector<Picture> pictures_;
+};
+
+/// What the overview shows as a glTF model, to turn around in a viewer.
 void write_scene_model(const std::filesystem::path& path, const Plan& plan,
                        const WorldModel& world);
 

@@ -86,14 +86,29 @@ const Eigen::Vector3f kRevealed(0.16f, 0.76f, 0.82f);
 const Eigen::Vector3f kGivenCamera(0.50f, 0.52f, 0.55f);
 const Eigen::Vector3f kSuggestedCamera(0.90f, 0.08f, 0.06f);
 const Eigen::Vector3f kWorkArea(0.35f, 0.37f, 0.40f);
+const Eigen::Vector3f kStructure(0.55f, 0.58f, 0.66f);
+
+/// Structures stand in front of the subject, too.
+constexpr float kStructureOpacity = 0.3f;
 
 /// How much of the light the revealed voxels keep back: one sees what stands inside them.
 constexpr double kRevealedOpacity = 0.4;
 
+constexpr double kBodyWidth = 0.22;  // of a camera; the work area's scale is 1
+
 TriangleMesh shape_of(const PinholeCamera& camera, const Plan& plan, double size = 1) {
   const double scale = size * scale_of(plan);
   const double distance = (camera.centre() - plan.request.work_area.centre()).norm();
-  return camera_shape(camera, 0.22 * scale, 0.35 * size * distance, 0.006 * scale);
+  return camera_shape(camera, kBodyWidth * scale, 0.35 * size * distance, 0.006 * scale);
+}
+
+/// Whether a box holds everything that the overview is about.
+bool surrounds(const Eigen::AlignedBox3d& box, const Plan& plan, const WorldModel& world) {
+  const auto inside = [&](const DepthCamera& given) { return box.contains(given.camera.centre()); };
+  const auto holds = [&](const PinholeCamera& camera) { return box.contains(camera.centre()); };
+  return box.contains(plan.request.work_area.min()) && box.contains(plan.request.work_area.max()) &&
+         std::ranges::all_of(world.cameras, inside) &&
+         std::ranges::all_of(suggested_cameras(plan), holds);
 }
 
 /// Many cameras are drawn small: else their frusta are all that one sees.
@@ -105,6 +120,10 @@ double size_among(std::size_t cameras) {
 
 double scale_of(const Plan& plan) {
   return 0.5 * plan.request.work_area.size().norm();
+}
+
+double floor_height(const Plan& plan) {
+  return std::min(0.0, plan.request.work_area.min().z()) - 1e-3 * scale_of(plan);
 }
 
 std::vector<PinholeCamera> suggested_cameras(const Plan& plan) {
@@ -137,6 +156,43 @@ std::vector<ColoredMesh> camera_meshes(const Plan& plan, const WorldModel& world
                       kSuggestedCamera});
   }
   return meshes;
+}
+
+std::vector<Eigen::Vector3d> suggested_bodies(const Plan& plan) {
+  std::vector<Eigen::Vector3d> bodies;
+  const std::vector<PinholeCamera> cameras = suggested_cameras(plan);
+  for (const PinholeCamera& camera : cameras) {
+    const double width = kBodyWidth * size_among(cameras.size()) * scale_of(plan);
+    bodies.push_back(camera.T_world_cam() * Eigen::Vector3d(0, 0, -0.17 * width));
+  }
+  return bodies;
+}
+
+std::vector<ColoredMesh> structure_meshes(const Plan& plan, const WorldModel& world) {
+  std::vector<ColoredMesh> meshes;
+  const double floor = floor_height(plan);
+  // Voxels show what is within, and a little more is not worth it.
+  const Eigen::Vector3d little = Eigen::Vector3d::Constant(0.05 * scale_of(plan));
+  const Eigen::AlignedBox3d area(plan.request.work_area.min() - little,
+                                 plan.request.work_area.max() + little);
+  const auto add = [&](const KnownObject& object) {
+    TriangleMesh mesh = object.mesh->transformed(object.T_world_object);
+    Eigen::AlignedBox3d all, visible;
+    for (const Eigen::Vector3f& p : mesh.vertices()) {
+      all.extend(p.cast<double>());
+      visible.extend(Eigen::Vector3d(p.x(), p.y(), std::max(double(p.z()), floor)));
+    }
+    if (mesh.empty() || all.max().z() <= floor) return;
+    if (area.contains(visible) || surrounds(all, plan, world)) return;
+    meshes.push_back({object.name, std::move(mesh), kStructure, kStructureOpacity});
+  };
+  for (const KnownObject& structure : world.static_structures) add(structure);
+  for (const KnownObject& object : world.objects) add(object);
+  return meshes;
+}
+
+PlanColors plan_colors() {
+  return {kOccupied, kShadow, kRevealed, kGivenCamera, kSuggestedCamera, kStructure};
 }
 
 }  // namespace vantage

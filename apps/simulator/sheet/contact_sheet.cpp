@@ -7,13 +7,13 @@
 #include <opencv2/imgproc.hpp>
 
 #include "simulator/scene/srgb.hpp"
+#include "simulator/sheet/lettering.hpp"
 #include "simulator/sheet/sheet_layout.hpp"
 #include "vantage/raycore/error.hpp"
 
 namespace vantage {
 namespace {
 
-constexpr int kFont = cv::FONT_HERSHEY_DUPLEX;
 const cv::Scalar kPaper(250, 250, 249), kHeadingInk(44, 48, 54), kCaptionInk(112, 117, 124);
 const cv::Scalar kLine(222, 223, 225), kPlace(238, 239, 240);
 
@@ -52,35 +52,6 @@ cv::Mat3b thumbnail(const ColorImage& image, cv::Size place) {
                  result.ptr<std::uint8_t>(), &linear_to_srgb8);
   return result;
 }
-
-/// Text of a height that is given by that of its capital letters.
-struct Lettering {
-  double scale;
-  int thickness, capital_px;
-
-  explicit Lettering(double px)
-      : scale(cv::getFontScaleFromHeight(kFont, int(std::lround(px)))),
-        thickness(std::max(1, int(px / 15))),
-        capital_px(int(std::lround(px))) {}
-
-  int width(const std::string& text) const {
-    int baseline = 0;
-    return cv::getTextSize(text, kFont, scale, thickness, &baseline).width;
-  }
-
-  /// The text, or as much of it as fits, and dots.
-  std::string fitted(std::string text, int room) const {
-    if (width(text) <= room) return text;
-    while (!text.empty() && width(text + "...") > room) text.pop_back();
-    return text + "...";
-  }
-
-  void write(cv::Mat3b& sheet, const std::string& text, cv::Point top_left, int room,
-             const cv::Scalar& ink) const {
-    cv::putText(sheet, fitted(text, room), top_left + cv::Point(0, capital_px), kFont, scale, ink,
-                thickness, cv::LINE_AA);
-  }
-};
 
 /// From cells to pixels.
 class Sheet {

@@ -51,12 +51,13 @@ class Encoder {
   Encoder(const Encoder&) = delete;
   Encoder& operator=(const Encoder&) = delete;
 
-  bool encode(png_uint_32 width, png_uint_32 height, int bits, int color_type, png_bytepp rows) {
+  bool encode(png_uint_32 width, png_uint_32 height, int bits, int color_type, int effort,
+              png_bytepp rows) {
     if (setjmp(png_jmpbuf(png_)) != 0) return false;
     png_set_write_fn(png_, &bytes_, append, nullptr);
     png_set_IHDR(png_, info_, width, height, bits, color_type, PNG_INTERLACE_NONE,
                  PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
-    png_set_compression_level(png_, 6);
+    png_set_compression_level(png_, effort);
     png_write_info(png_, info_);
     if (bits == 16 && std::endian::native == std::endian::little) png_set_swap(png_);
     png_write_image(png_, rows);
@@ -140,7 +141,8 @@ std::vector<png_bytep> row_pointers(const Image<Sample, kChannels>& image) {
 }
 
 template <class Sample, int kChannels>
-void write_image(const fs::path& path, const Image<Sample, kChannels>& image, int color_type) {
+void write_image(const fs::path& path, const Image<Sample, kChannels>& image, int color_type,
+                 int effort) {
   const bool has_pixels = image.width > 0 && image.height > 0;
   const std::size_t expected =
       has_pixels ? std::size_t(image.width) * std::size_t(image.height) * kChannels : 0;
@@ -153,7 +155,7 @@ void write_image(const fs::path& path, const Image<Sample, kChannels>& image, in
   std::vector<png_bytep> rows = row_pointers(image);
   Encoder encoder;
   if (!encoder.encode(png_uint_32(image.width), png_uint_32(image.height), 8 * sizeof(Sample),
-                      color_type, rows.data())) {
+                      color_type, effort, rows.data())) {
     throw bad_input(path.string(), fmt::format("cannot be made into a PNG: {}", encoder.message()));
   }
   write_file(path, encoder.bytes());
@@ -219,12 +221,12 @@ Size check_header(std::span<const std::uint8_t> bytes, const std::string& file) 
 
 }  // namespace
 
-void write_png(const fs::path& path, const ColorImage& image) {
-  write_image(path, image, PNG_COLOR_TYPE_RGB);
+void write_png(const fs::path& path, const ColorImage& image, int effort) {
+  write_image(path, image, PNG_COLOR_TYPE_RGB, effort);
 }
 
 void write_png(const fs::path& path, const RawDepthImage& image) {
-  write_image(path, image, PNG_COLOR_TYPE_GRAY);
+  write_image(path, image, PNG_COLOR_TYPE_GRAY, 6);
 }
 
 RawDepthImage read_png_counts(const fs::path& path) {

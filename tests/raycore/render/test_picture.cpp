@@ -2,6 +2,9 @@
 #include <tbb/global_control.h>
 #include <tbb/task_arena.h>
 
+#include <algorithm>
+#include <cstdlib>
+
 #include "support/expect_error.hpp"
 #include "vantage/raycore/advanced/picture.hpp"
 #include "vantage/raycore/advanced/scene_builder.hpp"
@@ -111,9 +114,53 @@ TEST_CASE("a picture that is stopped is none, and nonsense is refused") {
   });
   PictureOptions options;
   options.samples_per_pixel = 0;
-  test::expect_bad_input("picture", "0 samples", [&] {
+  test::expect_bad_input("picture", "samples_per_pixel is 0; expected 1 to 1024", [&] {
     render_picture(*world.scene, world.materials, kFromAbove, options);
   });
+  options = {.first_samples = 1025};
+  test::expect_bad_input("picture", "first_samples is 1025", [&] {
+    render_picture(*world.scene, world.materials, kFromAbove, options);
+  });
+}
+
+TEST_CASE("drawing advances by its steps") {
+  const FloorAndBox world;
+  const PinholeCamera camera({200, 100, 100, 100, 100, 50}, kFromAbove.T_world_cam());
+  const StopToken stop;
+  stop.expect(2 * picture_steps(200, 100));
+  CHECK(render_picture(*world.scene, world.materials, camera, sun_from_above(), stop));
+  CHECK(stop.progress() == doctest::Approx(0.5));
+}
+
+TEST_CASE("tiles leave no seams: a picture is a part of a larger one") {
+  const FloorAndBox world;
+  const auto draw = [&](int width, int height) {
+    const PinholeCamera camera({width, height, 300, 300, 160, 100}, kFromAbove.T_world_cam());
+    return *render_picture(*world.scene, world.materials, camera, sun_from_above());
+  };
+  const ColorImage large = draw(320, 210), small = draw(150, 120);
+  int worst = 0;
+  for (int v = 0; v < 110; ++v) {  // the small one's border knows fewer neighbours
+    for (int u = 0; u < 140; ++u) {
+      worst = std::max(worst, std::abs(large.pixel(u, v)[0] - small.pixel(u, v)[0]));
+    }
+  }
+  CHECK(worst <= 2);
+}
+
+TEST_CASE("edges of objects and of hard shadows stay sharp") {
+  const FloorAndBox world;
+  PictureOptions options = sun_from_above();
+  options.to_sun = {-1, 0, 1};
+  options.sun_radius = 0.001f;
+  const PinholeCamera camera({400, 300, 400, 400, 200, 150}, kFromAbove.T_world_cam());
+  const auto image = render_picture(*world.scene, world.materials, camera, options);
+  // The shadow ends at x = 0.6 m in front of its bottom: brighter within two pixels.
+  const auto at = [&](int u) { return brightness(*image, u, 150); };
+  CHECK(at(200 + 123) - at(200 + 117) > 100);
+  int steps = 0;
+  for (int u = 200 + 100; u < 200 + 140; ++u) steps += std::abs(at(u + 1) - at(u)) > 12;
+  CHECK(steps <= 2);
 }
 
 }  // namespace vantage

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <limits>
 #include <optional>
 #include <span>
@@ -32,25 +33,37 @@ struct Material {
 
 /// Light and effort of a picture.
 struct PictureOptions {
-  int samples_per_pixel = 64;                     ///< also the number of sky and sun directions
-  Eigen::Vector3f to_sun = {0.35f, -0.5f, 0.8f};  ///< of any length
-  float sun_radius = 0.06f;                       ///< softness of the shadows' edges, radians
-  float sky_reach_m = 0.6f;                       ///< what is farther away takes no skylight
+  /// Of a pixel that shows an edge or the border of a shadow; each takes a ray to the sky and one
+  /// to the sun.
+  int samples_per_pixel = 16;
+  /// Of all other pixels, whose light is the mean of their neighbours' on the same surface. As many
+  /// as `samples_per_pixel` or more: every pixel takes all of them, and none looks at its
+  /// neighbours.
+  int first_samples = 4;
+  Eigen::Vector3f to_sun = {0.35f, -0.5f, 0.8f};        ///< of any length
+  float sun_radius = 0.06f;                             ///< softness of the shadows' edges, radians
+  float sky_reach_m = 0.6f;                             ///< what is farther away takes no skylight
   Eigen::Vector3f background = {0.98f, 0.98f, 0.985f};  ///< sRGB
 };
 
 /// Draws a scene with sun, soft shadows, ambient occlusion and anti-aliasing. The camera's depth
 /// range is ignored.
 ///
-/// Every pixel uses the same sample positions and light directions: there is no noise, and the same
-/// call gives the same bytes at any number of threads. Runs in the caller's task arena.
+/// Sampling is adaptive: a few samples everywhere, more where they differ from each other or from a
+/// neighbour's. What a sample does follows from its number and its pixel's place alone, and the
+/// same call gives the same bytes at any number of threads. Runs in the caller's task arena.
 /// @param materials one for each object of the scene.
+/// @param stop advanced by `picture_steps`; to expect them is up to the caller, who may draw
+/// several pictures.
 /// @returns nothing if `stop` asked to stop.
-/// @throws Error bad_input for another number of materials, or samples outside 1 to 4096.
+/// @throws Error bad_input for another number of materials, and samples outside 1 to 1024.
 VANTAGE_API std::optional<ColorImage> render_picture(const Scene& scene,
                                                      std::span<const Material> materials,
                                                      const PinholeCamera& camera,
                                                      const PictureOptions& options = {},
                                                      const StopToken& stop = {});
+
+/// How many steps drawing an image of this size is.
+VANTAGE_API std::uint64_t picture_steps(int width, int height);
 
 }  // namespace vantage
