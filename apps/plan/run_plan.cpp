@@ -114,6 +114,7 @@ ExitCode run_plan(const WorldModel& world, const PlanRequest& request, PlanRecor
     if (result.classified != nullptr) {
       regions.emplace(*result.classified);
       explained = explain_views(world, result, output.explain, run.stop);
+      result.context.reset();  // large, and of no more use
     }
     return result;
   });

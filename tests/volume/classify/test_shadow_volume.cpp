@@ -185,6 +185,26 @@ TEST_CASE("after any sequence of changes to the objects a volume is what startin
   }
 }
 
+TEST_CASE("many objects that move at once, and one of them alone") {
+  for (const VolumeOptions& options : test::all_volume_modes()) {
+    test::Random random(3);
+    WorldModel world = test::random_workcell(3);
+    const auto mesh = std::make_shared<const TriangleMesh>(test::icosphere(0.008, 1));
+    const auto somewhere = [&] { return Pose::from_translation({0, 0, 0.1}) * random.pose(0.1); };
+    for (int i = 0; i < 80; ++i) world.objects.push_back({"ball", mesh, somewhere()});
+    ShadowVolume volume(world, test::small_grid(), options);
+    const auto first = volume.grid();
+    for (KnownObject& object : world.objects) object.T_world_object = somewhere();
+    volume.set_objects(world.objects);
+    const auto moved = volume.grid();
+    test::expect_same_grid(*moved, *classify(world, test::small_grid(), options));
+    CHECK(moved->centres(VoxelState::occupied).x != first->centres(VoxelState::occupied).x);
+    world.objects.back().T_world_object = somewhere();
+    volume.set_objects(world.objects);
+    test::expect_same_grid(*volume.grid(), *classify(world, test::small_grid(), options));
+  }
+}
+
 TEST_CASE("objects that stay where they are cost no new grid, and their names count") {
   const WorldModel world = test::random_workcell(4);
   ShadowVolume volume(world, test::small_grid());

@@ -35,6 +35,9 @@ const WorldModel& checked(const WorldModel& world, const VolumeOptions& options)
   return world;
 }
 
+/// Of more, asking for each what it may hide takes as long as tracing.
+constexpr std::size_t kMaxChangedExtents = 64;
+
 /// One camera, and how much of its evidence is there.
 struct Camera {
   std::string name;
@@ -103,16 +106,17 @@ struct ShadowVolume::Impl {
     camera.measured = camera.in_view && !stop.stop_requested();
   }
 
-  /// Traces what may have changed, or all that was not complete.
+  /// Traces what may have changed, or all if that was not complete.
   void trace_again(Camera& camera, std::span<const Extent> changed, const StopToken& stop) {
+    if (camera.traced && changed.empty()) return;
     CameraVisibility& sight = camera.evidence.sight;
-    CameraVisibility before = sight;
-    if (!camera.traced) {
+    const CameraVisibility before = sight;
+    if (!camera.traced || changed.size() > kMaxChangedExtents) {
       const bool in_view = camera.in_view;
       trace(camera, stop);
       camera.in_view = camera.in_view || in_view;
       if (stop.stop_requested() && in_view) sight.covered = before.covered;
-    } else if (!changed.empty()) {
+    } else {
       volume::detail::retrace_sight(camera.evidence.camera, space(), changed, stop, sight);
       camera.traced = !stop.stop_requested();
     }
