@@ -85,4 +85,29 @@ Field clearance_field(ViewConstraints& constraints) {
           .range = not_negative()};
 }
 
+Field camera_body_field(ViewConstraints& constraints) {
+  Choice body{{"d435", "none"}, {}, {}};
+  body.get = [&constraints]() -> std::string {
+    if (std::holds_alternative<std::monostate>(constraints.body)) return "none";
+    const BoxBody *box = std::get_if<BoxBody>(&constraints.body), usual = d435_body();
+    const bool same =
+        box != nullptr && box->box.min() == usual.box.min() && box->box.max() == usual.box.max();
+    return same ? "d435" : "";
+  };
+  body.set = [&constraints](const std::string& name) {
+    constraints.body = name == "none" ? CameraBody() : CameraBody(d435_body());
+  };
+  return {.key = "camera_body",
+          .value = body,
+          .help =
+              "Housing of the movable camera, which has to stay out of everything occupied and "
+              "of everything unseen; d435: a RealSense D435's, 90 x 25 x 25 mm; none: only its "
+              "centre has to",
+          .option = "--camera-body"};
+}
+
+FieldGroup body_fields(ViewConstraints& constraints) {
+  return {"", kHeading, {camera_body_field(constraints), clearance_field(constraints)}};
+}
+
 }  // namespace vantage

@@ -17,4 +17,10 @@ FieldGroup fields_of(CandidateSet& set);
 
 Field clearance_field(ViewConstraints& constraints);
 
+/// By name; a body that has none (a workcell's own box, say) has no value here.
+Field camera_body_field(ViewConstraints& constraints);
+
+/// Both.
+FieldGroup body_fields(ViewConstraints& constraints);
+
 }  // namespace vantage

@@ -52,7 +52,7 @@ void CandidateOptions::add_to(CLI::App& verb) {
       ->group("Candidates");
   HalfSpheres spheres = production_views();
   ViewConstraints constraints;
-  add_fields(verb, {"", "Candidates", {clearance_field(constraints)}, {fields_of(spheres)}}, given);
+  add_fields(verb, {"", "Candidates", {}, {body_fields(constraints), fields_of(spheres)}}, given);
 }
 
 CandidateSet CandidateOptions::resolve(const Workcell& workcell) const {
@@ -75,7 +75,7 @@ CandidateSet CandidateOptions::resolve(const Workcell& workcell) const {
 void CandidateOptions::apply(Workcell& workcell) const {
   workcell.candidates = resolve(workcell);
   if (!set.empty() && !is_name(set)) workcell.files.push_back(set);
-  read_given(given, {"", "", {clearance_field(workcell.constraints)}});
+  read_given(given, body_fields(workcell.constraints));
 }
 
 }  // namespace vantage

@@ -60,13 +60,14 @@ std::vector<CellCamera> read_cameras(const Value& value, const Workcell& workcel
   return cameras;
 }
 
+/// @param workcell its constraints are those where the file says nothing.
 void read_settings(const Value& root, const fs::path& folder, Workcell& workcell) {
   if (root.has("sensor")) read_sensor(root["sensor"], folder, workcell);
   if (root.has("movable_camera")) read_movable_camera(root["movable_camera"], workcell);
   if (root.has("candidates")) {
     workcell.candidates = read_candidates(root["candidates"], folder, workcell.files);
   }
-  workcell.constraints = read_constraints(root, folder, workcell.files);
+  workcell.constraints = read_constraints(root, folder, workcell.constraints, workcell.files);
   read_fields(root,
               {"", "", {voxel_size_field(workcell.voxel_size_m)}, {fields_of(workcell.volume)}});
   if (root.has("plan")) read_fields(root["plan"], fields_of(workcell.plan));
@@ -126,12 +127,12 @@ void read_contents(const Value& root, const fs::path& folder, Workcell& workcell
 
 }  // namespace
 
-Workcell load_workcell(const fs::path& path) {
+Workcell load_workcell(const fs::path& path, const ViewConstraints& usual) {
   const Document document = read_yaml(path);
   check_schema(document, workcell_schema());
   const Value root(document);
 
-  Workcell workcell{.work_area = read_box(root["work_area"])};
+  Workcell workcell{.work_area = read_box(root["work_area"]), .constraints = usual};
   workcell.files.push_back(path);
   read_settings(root, path.parent_path(), workcell);
   read_contents(root, path.parent_path(), workcell);

@@ -56,11 +56,12 @@ struct Workcell {
 
 /// Reads a workcell and the files that it names, relative to its folder: meshes, the knowledge
 /// base, the board, views, a reach map.
+/// @param usual where the movable camera may be, as far as the file says nothing of it.
 /// @throws Error bad_input with file, line and key for anything that is not as the schema has it, a
 /// box without volume, a quaternion that is none, ranges the wrong way round, a name used twice, a
 /// type that the knowledge base does not have, a marker of the board that a type has too, and a
 /// file that is not there; with the mesh file for one that is damaged; as `FileKnowledgeBase`,
 /// `read_candidates` and `read_constraints` do.
-Workcell load_workcell(const std::filesystem::path& path);
+Workcell load_workcell(const std::filesystem::path& path, const ViewConstraints& usual = {});
 
 }  // namespace vantage

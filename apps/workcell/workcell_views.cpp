@@ -88,6 +88,15 @@ ViewCone read_cone(const Value& value) {
   return cone;
 }
 
+/// A name, or a shape.
+void read_body(const Value& value, ViewConstraints& limits) {
+  if (value.is_string()) {
+    std::get<Choice>(camera_body_field(limits).value).set(value.as<std::string>());
+  }
+  if (value.has("sphere")) limits.body = SphereBody{value["sphere"]["radius_m"].as<double>()};
+  if (value.has("box")) limits.body = BoxBody{read_box(value["box"])};
+}
+
 }  // namespace
 
 HalfSpheres half_spheres_of(std::string_view set, const std::vector<double>& radii_m) {
@@ -114,15 +123,12 @@ CandidateSet read_candidates(const Value& value, const fs::path& folder,
 }
 
 ViewConstraints read_constraints(const Value& root, const fs::path& folder,
-                                 std::vector<fs::path>& files) {
-  ViewConstraints limits;
+                                 const ViewConstraints& usual, std::vector<fs::path>& files) {
+  ViewConstraints limits = usual;
   if (root.has("reach")) read_reach(root["reach"], folder, files, limits);
   if (root.has("view_cone")) limits.view_cone = read_cone(root["view_cone"]);
   read_fields(root, {"", "", {clearance_field(limits)}});
-  if (!root.has("camera_body")) return limits;
-  const Value body = root["camera_body"];
-  if (body.has("sphere")) limits.body = SphereBody{body["sphere"]["radius_m"].as<double>()};
-  if (body.has("box")) limits.body = BoxBody{read_box(body["box"])};
+  if (root.has("camera_body")) read_body(root["camera_body"], limits);
   return limits;
 }
 

@@ -23,9 +23,11 @@ CandidateSet read_candidates(const Value& value, const std::filesystem::path& fo
 
 /// What a workcell (`root`) says of where the movable camera may be: `reach`, `view_cone`,
 /// `camera_body` and `clearance_m`.
+/// @param usual the limits where it says nothing.
 /// @throws Error bad_input for a shell the wrong way round, a box without volume, a cone without a
 /// direction, and a map as `read_npy_bytes` does.
 ViewConstraints read_constraints(const Value& root, const std::filesystem::path& folder,
+                                 const ViewConstraints& usual,
                                  std::vector<std::filesystem::path>& files);
 
 }  // namespace vantage

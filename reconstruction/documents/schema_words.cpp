@@ -76,15 +76,27 @@ std::string array_in_words(const json& root, const json& schema) {
                      limits_in_words(items));
 }
 
-/// For the pattern `"oneOf": [{"required": ["box"]}, {"required": ["mesh", "unit_m"]}]`.
+std::string values_in_words(const json& schema) {
+  std::vector<std::string> values;
+  for (const json& value : schema["enum"]) values.push_back(value.dump());
+  return fmt::format("one of {}", fmt::join(values, ", "));
+}
+
+/// For the pattern `"oneOf": [{"required": ["box"]}, {"required": ["mesh", "unit_m"]}]`, which may
+/// have names as its first choice: `{"enum": ["none"]}`.
 std::string choices_in_words(const json& schema) {
   std::vector<std::string> choices;
+  std::string names;
   for (const json& choice : schema["oneOf"]) {
+    if (choice.contains("enum")) {
+      names = values_in_words(choice) + ", or ";
+      continue;
+    }
     std::vector<std::string> keys;
     for (const json& key : choice.value("required", json::array())) keys.push_back(key.dump());
     choices.push_back(fmt::format("{}", fmt::join(keys, " with ")));
   }
-  return fmt::format("exactly one of the keys {}", fmt::join(choices, ", "));
+  return fmt::format("{}exactly one of the keys {}", names, fmt::join(choices, ", "));
 }
 
 std::size_t edit_distance(const std::string& a, const std::string& b) {
@@ -125,11 +137,7 @@ const json& schema_at(const json& root, const json& document, const json::json_p
 }
 
 std::string in_words(const json& root, const json& schema) {
-  if (schema.contains("enum")) {
-    std::vector<std::string> values;
-    for (const json& value : schema["enum"]) values.push_back(value.dump());
-    return fmt::format("one of {}", fmt::join(values, ", "));
-  }
+  if (schema.contains("enum")) return values_in_words(schema);
   if (schema.contains("oneOf")) return choices_in_words(schema);
   if (!schema.contains("type")) return schema.value("description", "something else");
   const json& type = schema["type"];

@@ -282,6 +282,33 @@ TEST_CASE("with nothing in reach: exit code 4, and every candidate says why") {
             "no feasible view: every candidate was rejected\nrejected   40 out of reach\n") == 0);
 }
 
+TEST_CASE("the camera is a D435 that stays out of what is there and what is unseen, or a point") {
+  const test::TemporaryFolder folder;
+  // Just above the floor; beside the box's shadow, into which the right end of a D435 reaches;
+  // free.
+  const fs::path views = folder.write("views.yaml",
+                                      "views:\n"
+                                      "  - {eye_m: [0, 0.8, 0.03], target_m: [0, 0.1, 0.03]}\n"
+                                      "  - {eye_m: [0, 0.337, 0.08], target_m: [1, 0.337, 0.08]}\n"
+                                      "  - {eye_m: [0, 0.7, 0.4], target_m: [0, 0.1, 0.1]}\n");
+  const std::string plan = "plan" + test::quoted(test::write_scene(folder)) + test::kSceneArea +
+                           " --depth-range 0.03 3 --candidates" + test::quoted(views) + " --json";
+  const auto reasons = [&](const std::string& options) {
+    const auto result = run_vantage(plan + options);
+    CAPTURE(result.err);
+    CHECK(result.exit_code == 0);
+    nlohmann::json all = nlohmann::json::array();
+    for (const auto& candidate : result.json()["candidates"]) all.push_back(candidate["rejected"]);
+    return all;
+  };
+  const nlohmann::json near = "too close to occupied volume", unseen = "body in unseen volume";
+  CHECK(reasons("") == nlohmann::json{near, unseen, nullptr});
+  CHECK(reasons(" --camera-body d435 --clearance 0") == nlohmann::json{nullptr, unseen, nullptr});
+  CHECK(reasons(" --camera-body none") == nlohmann::json{nullptr, nullptr, nullptr});
+  CHECK(reasons(" --camera-body none --clearance 0.04") == nlohmann::json{near, nullptr, nullptr});
+  CHECK(run_vantage(plan + " --camera-body box").exit_code == 2);
+}
+
 TEST_CASE("a real Kinect recording: the suggested camera looks at the back of what stands there") {
   const auto scene = test::recording("osd_learn0");
   if (!scene) return;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "reference/for_each_voxel.hpp"
 #include "reference/plain_nearness.hpp"
 #include "vantage/volume/advanced/voxel_surface.hpp"
 
@@ -106,6 +107,48 @@ bool body_bumps(const ViewConstraints& limits, const ReferenceScene& occupied, c
   return allowed > 0 && judge.below(nearest_surface(occupied, pose.translation()), allowed);
 }
 
+/// How far a box is from another in its own frame along the direction in which they are farthest
+/// apart (S. Gottschalk, M. Lin, D. Manocha, 1996); negative if they overlap.
+double separation(const Box& body, const Pose& T_world_body, const Box& box) {
+  const Eigen::Matrix3d axes = T_world_body.rotation();
+  std::vector<Vector3d> directions;
+  for (int i = 0; i < 3; ++i) {
+    directions.push_back(Vector3d::Unit(i));
+    directions.push_back(axes.col(i));
+    for (int j = 0; j < 3; ++j) directions.push_back(Vector3d::Unit(i).cross(axes.col(j)));
+  }
+  const Vector3d between = T_world_body * body.centre() - box.centre();
+  double most = -std::numeric_limits<double>::infinity();
+  for (const Vector3d& direction : directions) {
+    if (direction.norm() < 1e-9) continue;  // of parallel edges
+    const Vector3d d = direction.normalized();
+    const double halves = (axes.transpose() * d).cwiseAbs().dot(0.5 * body.size()) +
+                          d.cwiseAbs().dot(0.5 * box.size());
+    most = std::max(most, std::abs(between.dot(d)) - halves);
+  }
+  return most;
+}
+
+/// Voxel by voxel, whether the body overlaps one of the shadow.
+bool body_in_shadow(const ViewConstraints& limits, const StateGrid& grid, const Pose& pose,
+                    ReconstructionEvaluator& judge) {
+  double least = std::numeric_limits<double>::infinity();
+  for_each_voxel(grid.geometry(), [&](const Eigen::Vector3i& voxel) {
+    if (grid.at(voxel) != VoxelState::shadow) return;
+    const Vector3d half = Vector3d::Constant(0.5 * grid.geometry().voxel_size_m());
+    const Vector3d centre = grid.geometry().centre(voxel);
+    const Box box(centre - half, centre + half);
+    if (const auto* body = std::get_if<BoxBody>(&limits.body)) {
+      least = std::min(least, separation(body->box, pose, box));
+    }
+    if (const auto* body = std::get_if<SphereBody>(&limits.body)) {
+      const Vector3d nearest = pose.translation().cwiseMax(box.min()).cwiseMin(box.max());
+      least = std::min(least, (nearest - pose.translation()).norm() - body->radius_m);
+    }
+  });
+  return judge.below(least, 0);
+}
+
 InvalidReason first_reason(const WorldModel& world, const StateGrid& grid,
                            const ViewConstraints& limits, const DepthRange& range, const Pose& pose,
                            ReconstructionEvaluator& judge) {
@@ -132,6 +175,7 @@ InvalidReason first_reason(const WorldModel& world, const StateGrid& grid,
   if (judge.below(nearest_surface(shadow, centre), range.near_m)) {
     return InvalidReason::too_close_to_shadow;
   }
+  if (body_in_shadow(limits, grid, pose, judge)) return InvalidReason::body_in_unseen;
   return body_bumps(limits, occupied, pose, judge) ? InvalidReason::too_close_to_occupied
                                                    : InvalidReason::none;
 }

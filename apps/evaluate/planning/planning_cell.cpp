@@ -133,7 +133,8 @@ std::vector<PinholeCamera> PlanningCell::cameras() const {
 }
 
 PlanningCell load_planning_cell(const PlanningCellName& name, DepthKind usual, std::uint64_t seed) {
-  Workcell workcell = load_workcell(name.workcell);
+  // The thesis, whose tables this is for, knows no body.
+  Workcell workcell = load_workcell(name.workcell, ViewConstraints::bare());
   const std::vector<std::size_t> cameras = chosen_cameras(name, workcell);
   place_random_objects(workcell);
   const DepthKind kind = name.depth.value_or(usual);

@@ -48,6 +48,7 @@ struct PlanningCell {
   std::vector<PinholeCamera> cameras() const;
 };
 
+/// The movable camera is a point unless the workcell gives it a body or a clearance.
 /// @param usual the depth images of a name that says nothing of them.
 /// @param seed of their noise; they are those that `vantage simulate` records with that seed.
 /// @throws Error as `load_workcell`, `place_random_objects` and `simulated_cell` do; bad_input for

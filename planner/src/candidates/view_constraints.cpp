@@ -63,6 +63,17 @@ void ViewCone::check(std::string_view where) const {
   }
 }
 
+BoxBody d435_body() {
+  return {Box({-0.045, -0.0125, -0.021}, {0.045, 0.0125, 0.004})};
+}
+
+ViewConstraints ViewConstraints::bare() {
+  ViewConstraints constraints;
+  constraints.clearance_m = 0;
+  constraints.body = std::monostate();
+  return constraints;
+}
+
 void ViewConstraints::check() const {
   if (reach) reach->check("reach");
   if (reach_map) reach_map->check("reach map");
@@ -102,6 +113,8 @@ std::string_view to_text(InvalidReason reason) {
       return "inside shadow";
     case InvalidReason::too_close_to_shadow:
       return "too close to shadow";
+    case InvalidReason::body_in_unseen:
+      return "body in unseen volume";
     case InvalidReason::too_close_to_occupied:
       return "too close to occupied volume";
     case InvalidReason::rejected_by_check:

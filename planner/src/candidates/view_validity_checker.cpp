@@ -45,11 +45,41 @@ bool too_close(const ViewConstraints& limits, const Scene& occupied, const Pose&
   return distance_m > 0 && occupied.closer_than(distance_m, T_world_cam.translation());
 }
 
-bool too_close_to_shadow(const PlanningScene& scene, double near_m, const Eigen::Vector3d& centre) {
+/// Whether faces of the shadow are closer to something than a distance.
+template <class... Something>
+bool shadow_closer_than(const PlanningScene& scene, double distance_m,
+                        const Something&... something) {
   const Scene& surfaces = scene.surfaces();
-  if (!surfaces.closer_than(near_m, centre)) return false;  // as nearly always
-  return surfaces.closer_than(near_m, centre, scene.shadow_object()) ||
-         surfaces.closer_than(near_m, centre, scene.covered_object());
+  if (!surfaces.closer_than(distance_m, something...)) return false;  // as nearly always
+  return surfaces.closer_than(distance_m, something..., scene.shadow_object()) ||
+         surfaces.closer_than(distance_m, something..., scene.covered_object());
+}
+
+/// How far the body's farthest point is from the camera's centre.
+double extent_m(const CameraBody& body) {
+  if (const BoxBody* box = std::get_if<BoxBody>(&body)) {
+    return box->box.min().cwiseAbs().cwiseMax(box->box.max().cwiseAbs()).norm();
+  }
+  const SphereBody* sphere = std::get_if<SphereBody>(&body);
+  return sphere == nullptr ? 0 : sphere->radius_m;
+}
+
+bool in_shadow(const StateGrid& grid, const Eigen::Vector3d& p_world) {
+  const auto voxel = grid.geometry().voxel_at(p_world);
+  return voxel && grid.at(*voxel) == VoxelState::shadow;
+}
+
+/// Whether the camera's body overlaps the shadow.
+/// @param near_m within this distance of the camera's centre there is no shadow.
+bool body_in_unseen(const CameraBody& body, const PlanningScene& scene, double near_m,
+                    const Pose& T_world_cam) {
+  if (extent_m(body) <= near_m) return false;
+  if (const BoxBody* box = std::get_if<BoxBody>(&body)) {
+    // A box beside the camera may be inside as a whole, away from all faces.
+    return shadow_closer_than(scene, 0, box->box, T_world_cam) ||
+           in_shadow(scene.grid(), T_world_cam * box->box.centre());
+  }
+  return shadow_closer_than(scene, extent_m(body), T_world_cam.translation());
 }
 
 }  // namespace
@@ -74,7 +104,10 @@ InvalidReason ViewValidityChecker::built_in(const Pose& T_world_cam) const {
     return InvalidReason::inside_occupied_volume;
   }
   if (state == VoxelState::shadow) return InvalidReason::inside_shadow;
-  if (too_close_to_shadow(scene_, range_.near_m, centre)) return InvalidReason::too_close_to_shadow;
+  if (shadow_closer_than(scene_, range_.near_m, centre)) return InvalidReason::too_close_to_shadow;
+  if (body_in_unseen(constraints_.body, scene_, range_.near_m, T_world_cam)) {
+    return InvalidReason::body_in_unseen;
+  }
   const bool bumps = too_close(constraints_, scene_.occluders(), T_world_cam);
   return bumps ? InvalidReason::too_close_to_occupied : InvalidReason::none;
 }

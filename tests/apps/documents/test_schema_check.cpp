@@ -126,6 +126,25 @@ TEST_CASE("one of two keys has to be there, and not both") {
                       {"exactly one of the keys"});
 }
 
+TEST_CASE("a name, or an object with one of two keys") {
+  const nlohmann::json schema{{"properties",
+                               {{"body",
+                                 {{"type", {"string", "object"}},
+                                  {"oneOf",
+                                   {{{"enum", {"usual", "none"}}},
+                                    {{"type", "object"}, {"required", {"sphere"}}},
+                                    {{"type", "object"}, {"required", {"box"}}}}}}}}}};
+  const auto check = [&](const std::string& body) {
+    check_schema(parse_yaml("body: " + body + "\n", "cell.yaml"), schema);
+  };
+  for (const char* good : {"usual", "none", "{sphere: 1}", "{box: 1}"}) CHECK_NOTHROW(check(good));
+  for (const char* bad : {"nothing", "{}", "{sphere: 1, box: 1}"}) {
+    expect_refused([&] { check(bad); }, "cell.yaml:1: body",
+                   {"one of \"usual\", \"none\", or exactly one of the keys \"sphere\", \"box\""});
+  }
+  expect_refused([&] { check("5"); }, "cell.yaml:1: body", {"found 5", "a string or an object"});
+}
+
 TEST_CASE("what a value says of itself decides which keys it may have") {
   CHECK_NOTHROW(check_yaml(std::string(kGoodLine) +
                            "ways: [{kind: ship, draught_m: 2}, {kind: van, wheels: 4}, {}]\n"));

@@ -39,9 +39,13 @@ TEST_CASE("the workcell's schema has the fields of the options, word for word") 
   double voxel_size_m = 0.009375;
   ViewConstraints constraints;
   const Json root =
-      properties_of({"", "", {voxel_size_field(voxel_size_m), clearance_field(constraints)}});
+      properties_of({"", "", {voxel_size_field(voxel_size_m)}, {body_fields(constraints)}});
   check_same("/properties/voxel_size_m", root["voxel_size_m"]);
   check_same("/properties/clearance_m", root["clearance_m"]);
+  const Json& body = root["camera_body"];  // a name, or a shape
+  check_same("/properties/camera_body/description", body["description"]);
+  check_same("/properties/camera_body/default", body["default"]);
+  check_same("/properties/camera_body/oneOf/0/enum", body["enum"]);
 
   const std::string candidates = "/properties/candidates/properties/";
   HalfSpheres spheres = production_views();

@@ -46,6 +46,21 @@ TEST_CASE("without options the workcell's candidates and limits stay") {
   CHECK(after("--clearance 0.1", cell).constraints.clearance_m == 0.1);
 }
 
+TEST_CASE("the camera's body by name wins over the workcell's; without either it is a D435's") {
+  Workcell cell = cell_with(production_views());
+  const auto box_after = [&](const char* arguments) {
+    return std::get<BoxBody>(after(arguments, cell).constraints.body).box;
+  };
+  CHECK(box_after("").min() == d435_body().box.min());
+  CHECK(after("", cell).constraints.clearance_m == 0.02);
+  const ViewConstraints none = after("--camera-body none", cell).constraints;
+  CHECK(std::holds_alternative<std::monostate>(none.body));
+  CHECK(none.clearance_m == 0.02);  // an option of its own
+  cell.constraints.body = SphereBody{0.1};
+  CHECK(std::holds_alternative<SphereBody>(after("", cell).constraints.body));
+  CHECK(box_after("--camera-body d435").max() == d435_body().box.max());
+}
+
 TEST_CASE("a named set wins, at the workcell's radii unless others are given") {
   const HalfSpheres own{{0.5, 0.6}, {60}};
   const HalfSpheres production = spheres_after("--candidates production", own);
@@ -99,8 +114,9 @@ TEST_CASE("options that do not go with the candidates are refused") {
   refuses("--ring-step 0.1", list, "--ring-step");
   refuses("--rings 1", AroundPath{{Pose()}}, "--rings");
   refuses("--radii 0.5", BoxGrid{kArea}, "--radii");
-  for (const char* arguments : {"--radii -1", "--radii 0", "--count 0", "--rings 51",
-                                "--ring-step 0", "--ring-step 4", "--clearance -1"}) {
+  for (const char* arguments :
+       {"--radii -1", "--radii 0", "--count 0", "--rings 51", "--ring-step 0", "--ring-step 4",
+        "--clearance -1", "--camera-body d436"}) {
     CAPTURE(arguments);
     CHECK_THROWS_AS(after(arguments, cell_with(production_views())), CLI::ParseError);
   }
@@ -123,7 +139,10 @@ TEST_CASE("the settings as plan.json has them") {
   CHECK(around["count"] == 3);
   CHECK(json(ViewList{{Pose(), Pose()}})["views"] == 2);
 
-  const auto none = config_of(ViewConstraints{});
+  const auto usual = config_of(ViewConstraints{});
+  CHECK(usual["camera_body"]["box"]["min_m"] == std::vector{-0.045, -0.0125, -0.021});
+  CHECK(usual["clearance_m"] == 0.02);
+  const auto none = config_of(ViewConstraints::bare());
   for (const char* key : {"shell", "box", "map"}) CHECK(none["reach"][key].is_null());
   CHECK(none["view_cone"].is_null());
   CHECK(none["camera_body"].is_null());

@@ -84,8 +84,8 @@ TEST_CASE("a work area is enough for a workcell") {
   CHECK(!cell.constraints.reach_box);
   CHECK(cell.constraints.reach_map == nullptr);
   CHECK(!cell.constraints.view_cone);
-  CHECK(cell.constraints.clearance_m == 0);
-  CHECK(std::holds_alternative<std::monostate>(cell.constraints.body));
+  CHECK(cell.constraints.clearance_m == 0.02);
+  CHECK(std::holds_alternative<BoxBody>(cell.constraints.body));
   CHECK(cell.voxel_size_m == 0.009375);
   CHECK(cell.sensor_intrinsics == Intrinsics{640, 480, 615, 615, 319.5, 239.5});
   CHECK(cell.foreign_objects.empty());

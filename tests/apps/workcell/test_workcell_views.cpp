@@ -196,8 +196,34 @@ TEST_CASE("a workcell's limits are read") {
 
   const Workcell ball = load_cell(folder, "camera_body: {sphere: {radius_m: 0.07}}\n");
   CHECK(std::get<SphereBody>(ball.constraints.body).radius_m == 0.07);
+  CHECK(ball.constraints.clearance_m == 0.02);
   const Workcell old = load_cell(folder, "reach: {base_m: [1, 2, 3], min_m: 0.1, max_m: 0.9}\n");
   CHECK(old.constraints.reach->min_m == 0.1);
+}
+
+TEST_CASE("a workcell names the camera's body, says that there is none, or leaves the usual one") {
+  TemporaryFolder folder;
+  const auto is_d435 = [](const ViewConstraints& limits) {
+    const BoxBody* body = std::get_if<BoxBody>(&limits.body);
+    return body != nullptr && body->box.min() == d435_body().box.min() &&
+           body->box.max() == d435_body().box.max();
+  };
+  CHECK(is_d435(load_cell(folder, "").constraints));
+  CHECK(is_d435(load_cell(folder, "camera_body: d435\n").constraints));
+  const Workcell none = load_cell(folder, "camera_body: none\nclearance_m: 0\n");
+  CHECK(std::holds_alternative<std::monostate>(none.constraints.body));
+  CHECK(none.constraints.clearance_m == 0);
+
+  const auto cell =
+      folder.write("cell.yaml", std::string(kAreaLine) + "view_cone: {half_angle_rad: 1}\n");
+  const ViewConstraints bare = load_workcell(cell, ViewConstraints::bare()).constraints;
+  CHECK(std::holds_alternative<std::monostate>(bare.body));
+  CHECK(bare.clearance_m == 0);
+  CHECK(bare.view_cone);
+  const auto named = folder.write("cell.yaml", std::string(kAreaLine) + "camera_body: d435\n");
+  const ViewConstraints body = load_workcell(named, ViewConstraints::bare()).constraints;
+  CHECK(is_d435(body));
+  CHECK(body.clearance_m == 0);
 }
 
 TEST_CASE("limits that are none are refused") {
@@ -220,6 +246,11 @@ TEST_CASE("limits that are none are refused") {
   expect_cell_refused("view_cone: {half_angle_rad: 4}\n", "view_cone.half_angle_rad", {"found 4"});
   expect_cell_refused("camera_body: {}\n", "camera_body",
                       {"exactly one of the keys \"sphere\", \"box\""});
+  expect_cell_refused("camera_body: d436\n", "camera_body",
+                      {"found \"d436\"",
+                       "one of \"d435\", \"none\", or exactly one of the keys "
+                       "\"sphere\", \"box\""});
+  expect_cell_refused("camera_body: 7\n", "camera_body", {"found 7", "a string or an object"});
   expect_cell_refused("camera_body: {sphere: {radius_m: 0}}\n", "camera_body.sphere.radius_m",
                       {"found 0"});
   expect_cell_refused("clearance_m: -1\n", "clearance_m", {"found -1"});

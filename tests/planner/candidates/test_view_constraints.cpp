@@ -49,13 +49,24 @@ ReachMap two_cells() {
   return {{0, 0, 0}, 0.5, {1, 1, 2}, {0, 1}};
 }
 
+const ViewConstraints kBare = ViewConstraints::bare();
+
+ViewConstraints with_body(const CameraBody& body, double clearance_m = 0) {
+  return {.clearance_m = clearance_m, .body = body};
+}
+
+/// No body, but a clearance.
+ViewConstraints with_clearance(double clearance_m) {
+  return with_body({}, clearance_m);
+}
+
 }  // namespace
 
 TEST_CASE("without limits a view is in the open, above the floor") {
   const Cell cell;
-  CHECK(cell.check({}, {0.5, 0, 0.2}) == InvalidReason::none);
-  CHECK(cell.check({}, {0.5, 0, 1e-9}) == InvalidReason::none);
-  CHECK(cell.check({}, {0.5, 0, 0}) == InvalidReason::below_the_floor);
+  CHECK(cell.check(kBare, {0.5, 0, 0.2}) == InvalidReason::none);
+  CHECK(cell.check(kBare, {0.5, 0, 1e-9}) == InvalidReason::none);
+  CHECK(cell.check(kBare, {0.5, 0, 0}) == InvalidReason::below_the_floor);
   CHECK(cell.check({}, {0.5, 0, -0.1}) == InvalidReason::below_the_floor);
 }
 
@@ -127,15 +138,13 @@ TEST_CASE("what is nearer than the near depth would not be measured") {
 TEST_CASE("the camera's body keeps its distance") {
   const Cell cell;
   const Eigen::Vector3d eye(0.7, 0, 0.5);  // 20 cm before the wall, which is at its back
-  CHECK(cell.check({.clearance_m = 0.19}, eye) == InvalidReason::none);
-  CHECK(cell.check({.clearance_m = 0.21}, eye) == InvalidReason::too_close_to_occupied);
-  CHECK(cell.check({.clearance_m = 0.1, .body = SphereBody{0.09}}, eye) == InvalidReason::none);
-  CHECK(cell.check({.clearance_m = 0.1, .body = SphereBody{0.11}}, eye) ==
-        InvalidReason::too_close_to_occupied);
+  CHECK(cell.check(with_clearance(0.19), eye) == InvalidReason::none);
+  CHECK(cell.check(with_clearance(0.21), eye) == InvalidReason::too_close_to_occupied);
+  CHECK(cell.check(with_body(SphereBody{0.09}, 0.1), eye) == InvalidReason::none);
+  CHECK(cell.check(with_body(SphereBody{0.11}, 0.1), eye) == InvalidReason::too_close_to_occupied);
   const Eigen::Vector3d level(0, 0, 0.5);  // the axes of the camera are the world's
   const auto with_length = [](double length_m, double clearance_m) {
-    return ViewConstraints{.clearance_m = clearance_m,
-                           .body = BoxBody{Box({-0.02, -0.02, -length_m}, {0.02, 0.02, 0})}};
+    return with_body(BoxBody{Box({-0.02, -0.02, -length_m}, {0.02, 0.02, 0})}, clearance_m);
   };
   CHECK(cell.check(with_length(0.15, 0.04), eye, level) == InvalidReason::none);
   CHECK(cell.check(with_length(0.15, 0.06), eye, level) == InvalidReason::too_close_to_occupied);
@@ -143,27 +152,72 @@ TEST_CASE("the camera's body keeps its distance") {
   CHECK(cell.check(with_length(0.21, 0), eye, level) == InvalidReason::too_close_to_occupied);
   CHECK(cell.check(with_length(0.21, 0), eye, {1, 0, 0.5}) == InvalidReason::none);  // turned round
   // A box beside the camera that is inside the wall as a whole touches no face of it.
-  const ViewConstraints beside{.body = BoxBody{Box({-0.02, -0.02, -0.32}, {0.02, 0.02, -0.28})}};
-  CHECK(cell.check(beside, eye, level) == InvalidReason::too_close_to_occupied);
+  const BoxBody beside{Box({-0.02, -0.02, -0.32}, {0.02, 0.02, -0.28})};
+  CHECK(cell.check(with_body(beside), eye, level) == InvalidReason::too_close_to_occupied);
 }
 
 TEST_CASE("the camera's body keeps its distance from the floor, which is no structure") {
   const Cell cell;
   const Eigen::Vector3d eye(0.5, 0, 0.1), level(0, 0, 0.1);
-  CHECK(cell.check({.clearance_m = 0.099}, eye) == InvalidReason::none);
-  CHECK(cell.check({.clearance_m = 0.101}, eye) == InvalidReason::too_close_to_occupied);
-  CHECK(cell.check({.body = SphereBody{0.099}}, eye) == InvalidReason::none);
-  CHECK(cell.check({.body = SphereBody{0.101}}, eye) == InvalidReason::too_close_to_occupied);
-  CHECK(cell.check({.clearance_m = 0.05, .body = SphereBody{0.051}}, eye) ==
+  CHECK(cell.check(with_clearance(0.099), eye) == InvalidReason::none);
+  CHECK(cell.check(with_clearance(0.101), eye) == InvalidReason::too_close_to_occupied);
+  CHECK(cell.check(with_body(SphereBody{0.099}), eye) == InvalidReason::none);
+  CHECK(cell.check(with_body(SphereBody{0.101}), eye) == InvalidReason::too_close_to_occupied);
+  CHECK(cell.check(with_body(SphereBody{0.051}, 0.05), eye) ==
         InvalidReason::too_close_to_occupied);
   // The camera's y axis points down, and its z axis to where it looks.
-  const auto box = [](const Box& body) { return ViewConstraints{.body = BoxBody{body}}; };
+  const auto box = [](const Box& body) { return with_body(BoxBody{body}); };
   const ViewConstraints short_one = box(Box({-0.2, -0.2, -0.1}, {0.2, 0.099, 0}));
   CHECK(cell.check(short_one, eye, level) == InvalidReason::none);
   CHECK(cell.check(box(Box({-0.2, -0.2, -0.1}, {0.2, 0.101, 0})), eye, level) ==
         InvalidReason::too_close_to_occupied);
   // As it looks upwards, its back sinks.
   CHECK(cell.check(short_one, eye, {0, 0, 0.5}) == InvalidReason::too_close_to_occupied);
+}
+
+TEST_CASE("by default a camera is a D435 that stays 20 mm away") {
+  const Cell cell;
+  const auto at = [&](double height_m) {
+    return cell.check({}, {0.5, 0, height_m}, {0, 0, height_m});
+  };
+  CHECK(at(0.0324) == InvalidReason::too_close_to_occupied);  // half of 25 mm, and 20 mm
+  CHECK(at(0.0326) == InvalidReason::none);
+  CHECK(cell.check(kBare, {0.5, 0, 0.0324}, {0, 0, 0.0324}) == InvalidReason::none);
+  const Box body = d435_body().box;
+  CHECK((body.size() - Eigen::Vector3d(0.09, 0.025, 0.025)).norm() < 1e-12);
+  CHECK(body.contains(Eigen::Vector3d::Zero()));
+}
+
+TEST_CASE("the camera's body stays out of what nobody has seen") {
+  const Cell dark(false);
+  const Eigen::Vector3d eye(0.26, 0, 0.12), level(0, 0, 0.12);  // 6 cm from it
+  CHECK(dark.check(with_body(SphereBody{0.059}), eye) == InvalidReason::none);
+  CHECK(dark.check(with_body(SphereBody{0.061}), eye) == InvalidReason::body_in_unseen);
+  const auto with_nose = [&](double length_m) {
+    return with_body(BoxBody{Box({-0.01, -0.01, -0.01}, {0.01, 0.01, length_m})});
+  };
+  CHECK(dark.check(with_nose(0.059), eye, level) == InvalidReason::none);
+  CHECK(dark.check(with_nose(0.061), eye, level) == InvalidReason::body_in_unseen);
+  CHECK(dark.check(with_nose(0.061), eye, {1, 0, 0.12}) == InvalidReason::none);  // turned round
+  // Its corner reaches in, but its centre is as far away as before.
+  const BoxBody wide{Box({-0.01, -0.01, -0.01}, {0.05, 0.01, 0.04})};
+  CHECK(dark.check(with_body(wide), eye, level) == InvalidReason::none);
+  CHECK(dark.check(with_body(wide), eye, {0, -0.26, 0.12}) == InvalidReason::body_in_unseen);
+  // A box before the camera that is inside as a whole touches no face.
+  const BoxBody before{Box({-0.02, -0.02, 0.11}, {0.02, 0.02, 0.15})};
+  CHECK(dark.check(with_body(before), eye, level) == InvalidReason::body_in_unseen);
+  const Cell seen;
+  CHECK(seen.check(with_body(before), eye, level) == InvalidReason::none);
+}
+
+TEST_CASE(
+    "unseen volume needs no clearance, and a work area that nobody sees leaves room outside") {
+  const Cell dark(false);
+  CHECK(dark.check(with_body(SphereBody{0.055}, 0.02), {0.26, 0, 0.12}) == InvalidReason::none);
+  for (const Eigen::Vector3d& eye :
+       {Eigen::Vector3d(0, 0.01, 0.4), {0.3, 0.3, 0.2}, {0, -0.28, 0.1}}) {
+    CHECK(dark.check({}, eye) == InvalidReason::none);
+  }
 }
 
 TEST_CASE("of several reasons the first one counts") {
@@ -179,6 +233,8 @@ TEST_CASE("of several reasons the first one counts") {
   CHECK(dark.check(limits, in_cube) == InvalidReason::inside_occupied_volume);
   CHECK(dark.check(limits, in_shadow) == InvalidReason::inside_shadow);
   CHECK(dark.check(limits, near) == InvalidReason::too_close_to_shadow);
+  limits.body = SphereBody{0.07};
+  CHECK(dark.check(limits, {0.26, 0, 0.1}) == InvalidReason::body_in_unseen);
   CHECK(dark.check(limits, {0.5, 0, 0.1}) == InvalidReason::too_close_to_occupied);
 }
 

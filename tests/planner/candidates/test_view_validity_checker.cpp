@@ -24,19 +24,20 @@ std::shared_ptr<const ReachMap> random_map(Random& random) {
 }
 
 ViewConstraints random_limits(Random& random) {
-  ViewConstraints limits;
+  ViewConstraints limits = ViewConstraints::bare();
   const auto sometimes = [&] { return random.below(4) == 0; };
   if (sometimes()) limits.reach = Reach{random.in_cube(0.3), 0.1, random.uniform(0.4, 0.8)};
   if (sometimes()) limits.reach_box = Box({-0.4, -0.3, 0.01}, {0.3, 0.4, random.uniform(0.2, 0.5)});
   if (sometimes()) limits.reach_map = random_map(random);
   if (sometimes()) limits.view_cone = ViewCone{random.direction(), random.uniform(0.8, 3.1)};
   if (random.below(2) == 0) limits.clearance_m = random.uniform(0, 0.05);
-  const std::uint32_t body = random.below(3);
+  const std::uint32_t body = random.below(4);
   if (body == 1) limits.body = SphereBody{random.uniform(0, 0.04)};
   if (body == 2) {
     const Eigen::Vector3d min = random.in_cube(0.03);
     limits.body = BoxBody{Box(min, min + Eigen::Vector3d(0.03, 0.02, random.uniform(0.01, 0.1)))};
   }
+  if (body == 3) limits.body = d435_body();
   return limits;
 }
 
@@ -94,8 +95,8 @@ TEST_CASE("with voxels as occluders, distances are to the voxels") {
   const auto distance = [&](OccluderMode mode) {
     const PlanningScene scene(world, grid, mode);
     double distance_m = 0;
-    while (ViewValidityChecker({.clearance_m = distance_m}, scene, {1e-6, 3}).check(beside) ==
-           InvalidReason::none)
+    while (ViewValidityChecker({.clearance_m = distance_m, .body = {}}, scene, {1e-6, 3})
+               .check(beside) == InvalidReason::none)
       distance_m += 1e-4;
     return distance_m;
   };
@@ -105,14 +106,36 @@ TEST_CASE("with voxels as occluders, distances are to the voxels") {
   CHECK(std::abs(distance(OccluderMode::voxels) - std::hypot(0.03, 0.03)) < 2e-4);
 }
 
+TEST_CASE("a body stays out of what nobody has seen, whatever hides it") {
+  const WorldModel world = wall_world();
+  const auto grid = classify(world, GridGeometry::covering(random_workcell_area(), 0.01));
+  const Pose behind = Pose::looking_at({0, 0.35, 0.09}, {0, 0, 0.09});  // looks into the shadow
+  for (const OccluderMode mode : {OccluderMode::mesh, OccluderMode::voxels}) {
+    const PlanningScene scene(world, grid, mode);
+    const auto with_nose = [&](double length_m) {
+      const BoxBody body{Box({-0.005, -0.005, -0.02}, {0.005, 0.005, length_m})};
+      return ViewValidityChecker({.clearance_m = 0.01, .body = body}, scene, {0.02, 3})
+          .check(behind);
+    };
+    double length_m = 0.01;  // until it touches
+    while (with_nose(length_m) == InvalidReason::none) length_m += 1e-3;
+    CHECK(with_nose(length_m) == InvalidReason::body_in_unseen);
+    const Eigen::Vector3d tip = behind * Eigen::Vector3d(0, 0, length_m + 0.005);
+    const auto voxel = grid->geometry().voxel_at(tip);
+    REQUIRE(voxel);
+    CHECK(grid->at(*voxel) == VoxelState::shadow);
+  }
+}
+
 TEST_CASE("shadow is as close with a wall before it, whatever stands for the wall") {
   const WorldModel world = wall_world();
   const auto grid = classify(world, GridGeometry::covering(random_workcell_area(), 0.01));
   const Pose before = Pose::looking_at({0, -0.05, 0.09}, {0, 0, 0.09});
   for (const OccluderMode mode : {OccluderMode::mesh, OccluderMode::voxels}) {
     const PlanningScene scene(world, grid, mode);
-    CHECK(ViewValidityChecker({}, scene, {0.06, 3}).check(before) == InvalidReason::none);
-    CHECK(ViewValidityChecker({}, scene, {0.08, 3}).check(before) ==
+    const ViewConstraints bare = ViewConstraints::bare();
+    CHECK(ViewValidityChecker(bare, scene, {0.06, 3}).check(before) == InvalidReason::none);
+    CHECK(ViewValidityChecker(bare, scene, {0.08, 3}).check(before) ==
           InvalidReason::too_close_to_shadow);
   }
 }

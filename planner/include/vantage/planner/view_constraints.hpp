@@ -55,6 +55,15 @@ struct SphereBody {
 struct BoxBody {
   Box box;
 };
+/// None is the camera's centre alone.
+using CameraBody = std::variant<std::monostate, SphereBody, BoxBody>;
+
+/// A RealSense D435: its housing of 90 × 25 × 25 mm (Intel, D400 series datasheet). Along z it ends
+/// 4 mm before the centre, as depth is measured from 4.2 mm behind the front glass. Across, the
+/// centre is taken to be in the middle: where the camera's frame is that of the left imager, which
+/// is 17.5 mm beside it, or of the colour imager, and centimetres matter, give the box in that
+/// frame.
+VANTAGE_API BoxBody d435_body();
 
 /// A test of the caller's own of whether the camera can be at a pose, by inverse kinematics, say,
 /// or by a collision check: nothing if it can, else why not, e.g. "no joint angles reach it".
@@ -69,18 +78,24 @@ using ViewCheck = std::function<std::optional<std::string>(const Pose& T_world_c
 VANTAGE_API ViewCheck view_check(std::function<bool(const Pose& T_world_cam)> feasible,
                                  std::string reason);
 
-/// Where the camera may be. All limits apply at once.
+/// Where the camera may be. All limits apply at once. By default it has the body of a D435, which
+/// stays 20 mm away from everything that is there and out of what nobody has seen.
 struct ViewConstraints {
   std::optional<Reach> reach = {};
   std::optional<Box> reach_box = {};               ///< world frame
   std::shared_ptr<const ReachMap> reach_map = {};  ///< null: none
   std::optional<ViewCone> view_cone = {};
-  /// Least distance of the body from all that is occupied, and from the floor at z = 0.
-  double clearance_m = 0;
-  std::variant<std::monostate, SphereBody, BoxBody> body = {};  ///< none: the centre alone
+  /// Least distance of the body from all that is occupied, and from the floor at z = 0. Not from
+  /// shadow, which is occupied only perhaps: the body must not overlap it, but may be beside it.
+  double clearance_m = 0.02;
+  CameraBody body = d435_body();
   /// Asked in their order, and only of poses that all of the above allows: candidates, every servo
   /// iteration and every step of polishing, of the first view and of those after it.
   std::vector<ViewCheck> checks = {};
+
+  /// No body and no clearance: a point that is outside of everything, as the thesis has it. What
+  /// comes of it is for a simulation, or for a caller who knows where the camera fits.
+  VANTAGE_API static ViewConstraints bare();
 
   /// @throws Error bad_input as its parts do; for a clearance or a radius that is negative or not
   /// finite, and for an empty check.
@@ -96,6 +111,7 @@ enum class InvalidReason : std::uint8_t {
   inside_occupied_volume,
   inside_shadow,
   too_close_to_shadow,  ///< closer to it than the camera's near depth: it would not be measured
+  body_in_unseen,       ///< the body would overlap shadow, whatever the cause of that is
   /// The body is closer to it, or to the floor, than the clearance, or touches it.
   too_close_to_occupied,
   rejected_by_check,  ///< by one of `ViewConstraints::checks`, which says why

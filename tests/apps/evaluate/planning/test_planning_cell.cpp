@@ -91,6 +91,15 @@ TEST_CASE("foreign objects are in the depth images, and nowhere else") {
   CHECK(load(shipped_workcell("foreign_objects"), "+none", DepthKind::noisy).depth == "none");
 }
 
+TEST_CASE("in the thesis' cells the camera is a point, unless the workcell gives it a body") {
+  const ViewConstraints wall = load(shipped_workcell("wall"), "").request.constraints;
+  CHECK(std::holds_alternative<std::monostate>(wall.body));
+  CHECK(wall.clearance_m == 0);
+  const ViewConstraints example = load(shipped_workcell("example"), "").request.constraints;
+  CHECK(std::holds_alternative<BoxBody>(example.body));
+  CHECK(example.clearance_m == 0.02);
+}
+
 TEST_CASE("cells that cannot be evaluated say why") {
   const std::string wall = shipped_workcell("wall").string();
   expect_refusal([&] { load(wall, ":back"); }, wall,
