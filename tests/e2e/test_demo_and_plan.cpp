@@ -272,8 +272,10 @@ TEST_CASE("with nothing in reach: exit code 4, and every candidate says why") {
   const auto result =
       run_vantage("plan '" + scene.string() + "' --workcell '" + cell.string() + "' --json");
   CHECK(result.exit_code == 4);
-  CHECK(result.json()["best"].is_null());
-  for (const auto& candidate : result.json()["candidates"]) {
+  const nlohmann::json json = result.json();
+  CHECK(json["best"].is_null());
+  CHECK(json["candidates"].size() == 40);
+  for (const auto& candidate : json["candidates"]) {
     CHECK(candidate["feasible"] == false);
     CHECK(candidate["rejected"] == "out of reach");
   }
@@ -284,12 +286,12 @@ TEST_CASE("with nothing in reach: exit code 4, and every candidate says why") {
 
 TEST_CASE("the camera is a D435 that stays out of what is there and what is unseen, or a point") {
   const test::TemporaryFolder folder;
-  // Just above the floor; beside the box's shadow, into which the right end of a D435 reaches;
+  // Just above the floor; beside the box's shadow, into which the left end of a D435 reaches;
   // free.
   const fs::path views = folder.write("views.yaml",
                                       "views:\n"
                                       "  - {eye_m: [0, 0.8, 0.03], target_m: [0, 0.1, 0.03]}\n"
-                                      "  - {eye_m: [0, 0.337, 0.08], target_m: [1, 0.337, 0.08]}\n"
+                                      "  - {eye_m: [0.145, 0.2, 0.05], target_m: [0.145, 1, 0.05]}\n"
                                       "  - {eye_m: [0, 0.7, 0.4], target_m: [0, 0.1, 0.1]}\n");
   const std::string plan = "plan" + test::quoted(test::write_scene(folder)) + test::kSceneArea +
                            " --depth-range 0.03 3 --candidates" + test::quoted(views) + " --json";
@@ -297,8 +299,9 @@ TEST_CASE("the camera is a D435 that stays out of what is there and what is unse
     const auto result = run_vantage(plan + options);
     CAPTURE(result.err);
     CHECK(result.exit_code == 0);
+    const nlohmann::json json = result.json();
     nlohmann::json all = nlohmann::json::array();
-    for (const auto& candidate : result.json()["candidates"]) all.push_back(candidate["rejected"]);
+    for (const auto& candidate : json["candidates"]) all.push_back(candidate["rejected"]);
     return all;
   };
   const nlohmann::json near = "too close to occupied volume", unseen = "body in unseen volume";

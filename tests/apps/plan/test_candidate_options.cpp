@@ -46,7 +46,7 @@ TEST_CASE("without options the workcell's candidates and limits stay") {
   CHECK(after("--clearance 0.1", cell).constraints.clearance_m == 0.1);
 }
 
-TEST_CASE("the camera's body by name wins over the workcell's; without either it is a D435's") {
+TEST_CASE("the camera's body by name wins over the workcell's, and without either it is a D435's") {
   Workcell cell = cell_with(production_views());
   const auto box_after = [&](const char* arguments) {
     return std::get<BoxBody>(after(arguments, cell).constraints.body).box;
