@@ -288,11 +288,12 @@ TEST_CASE("the camera is a D435 that stays out of what is there and what is unse
   const test::TemporaryFolder folder;
   // Just above the floor; beside the box's shadow, into which the left end of a D435 reaches;
   // free.
-  const fs::path views = folder.write("views.yaml",
-                                      "views:\n"
-                                      "  - {eye_m: [0, 0.8, 0.03], target_m: [0, 0.1, 0.03]}\n"
-                                      "  - {eye_m: [0.145, 0.2, 0.05], target_m: [0.145, 1, 0.05]}\n"
-                                      "  - {eye_m: [0, 0.7, 0.4], target_m: [0, 0.1, 0.1]}\n");
+  const fs::path views =
+      folder.write("views.yaml",
+                   "views:\n"
+                   "  - {eye_m: [0, 0.8, 0.03], target_m: [0, 0.1, 0.03]}\n"
+                   "  - {eye_m: [0.145, 0.2, 0.05], target_m: [0.145, 1, 0.05]}\n"
+                   "  - {eye_m: [0, 0.7, 0.4], target_m: [0, 0.1, 0.1]}\n");
   const std::string plan = "plan" + test::quoted(test::write_scene(folder)) + test::kSceneArea +
                            " --depth-range 0.03 3 --candidates" + test::quoted(views) + " --json";
   const auto reasons = [&](const std::string& options) {
