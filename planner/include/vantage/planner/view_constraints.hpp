@@ -58,11 +58,11 @@ struct BoxBody {
 /// None is the camera's centre alone.
 using CameraBody = std::variant<std::monostate, SphereBody, BoxBody>;
 
-/// A RealSense D435: its housing of 90 × 25 × 25 mm (Intel, D400 series datasheet). Along z it ends
-/// 4 mm before the centre, as depth is measured from 4.2 mm behind the front glass. Across, the
-/// centre is taken to be in the middle: where the camera's frame is that of the left imager, which
-/// is 17.5 mm beside it, or of the colour imager, and centimetres matter, give the box in that
-/// frame.
+/// A RealSense D435: its housing of 90 × 25 × 25 mm (Intel, D400 series datasheet). Its front is
+/// 4 mm in front of the centre, as depth is measured from 4.2 mm behind the front glass. Across,
+/// the centre is taken to be in the middle: where the camera's frame is that of the left imager,
+/// which is 17.5 mm beside it, or of the colour imager, and centimetres matter, give the box in
+/// that frame.
 VANTAGE_API BoxBody d435_body();
 
 /// A test of the caller's own of whether the camera can be at a pose, by inverse kinematics, say,
