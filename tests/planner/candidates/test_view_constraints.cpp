@@ -210,9 +210,11 @@ TEST_CASE("the camera's body stays out of what nobody has seen") {
   CHECK(seen.check(with_body(before), eye, level) == InvalidReason::none);
 }
 
-TEST_CASE(
-    "unseen volume needs no clearance, and a work area that nobody sees leaves room outside") {
+TEST_CASE("unseen volume needs no clearance, and beyond the work area there is none") {
   const Cell dark(false);
+  const auto voxel = dark.grid->geometry().voxel_at({0.15, 0.1, 0.1});
+  REQUIRE(voxel);
+  CHECK(dark.grid->shadow_cause(*voxel) == ShadowCause::outside);  // which is unseen, too
   CHECK(dark.check(with_body(SphereBody{0.055}, 0.02), {0.26, 0, 0.12}) == InvalidReason::none);
   for (const Eigen::Vector3d& eye :
        {Eigen::Vector3d(0, 0.01, 0.4), {0.3, 0.3, 0.2}, {0, -0.28, 0.1}}) {
