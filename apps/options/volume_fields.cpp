@@ -6,6 +6,10 @@ namespace {
 const EnumNames<OccluderMode> kOccluders{{"mesh", OccluderMode::mesh},
                                          {"voxels", OccluderMode::voxels}};
 
+const EnumNames<FalseShadowFilter> kFilters{{"auto", FalseShadowFilter::automatic},
+                                            {"off", FalseShadowFilter::off},
+                                            {"on", FalseShadowFilter::on}};
+
 }  // namespace
 
 FieldGroup fields_of(StereoNoise& noise) {
@@ -50,6 +54,18 @@ FieldGroup fields_of(VolumeOptions& volume) {
                     "one voxel",
             .option = "--band-sigmas",
             .unit = "sigmas",
+            .range = not_negative(),
+            .expert = true},
+           {.key = "filter",
+            .value = choice(volume.filter, kFilters),
+            .help = "Take thin shadow, which noise leaves along measured surfaces, for free before "
+                    "planning; auto: if depth images are given and noisy",
+            .option = "--filter"},
+           {.key = "filter_m",
+            .value = &volume.filter_m,
+            .help = "Edge of the cube that does not fit into thin shadow; at least 3 voxels",
+            .option = "--filter-edge",
+            .unit = "m",
             .range = not_negative(),
             .expert = true}},
           {fields_of(volume.noise)}};

@@ -193,4 +193,41 @@ TEST_CASE("shadow filters: threads make no difference, and bad sizes are refused
   }
 }
 
+TEST_CASE("planning takes thin shadow for free where depth is noisy, and says how much") {
+  // A thick ball, and a layer on the floor.
+  const auto inside = ball({12, 12, 14}, 5);
+  const auto grid = shadow_where(geometry_of(24, 24, 24), [&](const Eigen::Vector3i& voxel) {
+    return voxel.z() == 0 || inside(voxel);
+  });
+  WorldModel blind, measured;
+  const PinholeCamera camera({64, 48, 70, 70, 31.5, 23.5}, Pose());
+  blind.cameras.push_back({"a", camera, nullptr});
+  measured.cameras.push_back({"a", camera, std::make_shared<const DepthImage>(64, 48)});
+  VolumeOptions options;
+  CHECK(without_false_shadow(grid, blind, options) == grid);
+  const auto filtered = without_false_shadow(grid, measured, options);
+  CHECK(filtered->report().false_shadow ==
+        grid->count(VoxelState::shadow) - filtered->count(VoxelState::shadow));
+  CHECK(filtered->report().false_shadow >= 24 * 24);
+  CHECK(filtered->at({3, 3, 0}) == VoxelState::free);
+  CHECK(filtered->at({12, 12, 14}) == VoxelState::shadow);
+  CHECK(without_false_shadow(filtered, measured, options)->count(VoxelState::shadow) ==
+        filtered->count(VoxelState::shadow));
+
+  options.noise.subpixel_px = 0;  // nothing to be filtered
+  CHECK(without_false_shadow(grid, measured, options) == grid);
+  options.filter = FalseShadowFilter::on;
+  CHECK(without_false_shadow(grid, blind, options)->report().false_shadow > 0);
+  options = {.filter = FalseShadowFilter::off};
+  CHECK(without_false_shadow(grid, measured, options) == grid);
+  // A wider edge takes more.
+  const VolumeOptions wide{.filter_m = 0.2};
+  CHECK(without_false_shadow(grid, measured, wide) == grid);  // all would go, so nothing does
+  const VolumeOptions wide_on{.filter = FalseShadowFilter::on, .filter_m = 0.2};
+  CHECK(without_false_shadow(grid, measured, wide_on)->count(VoxelState::shadow) == 0);
+  test::expect_bad_input("filter_m", "0 or above", [&] {
+    without_false_shadow(grid, measured, VolumeOptions{.filter_m = -1});
+  });
+}
+
 }  // namespace vantage

@@ -24,6 +24,7 @@ void StereoNoise::check() const {
 
 void VolumeOptions::check() const {
   check_number("band_sigmas", band_sigmas, band_sigmas >= 0, "0 or above");
+  check_number("filter_m", filter_m, filter_m >= 0, "0 or above");
   noise.check();
 }
 

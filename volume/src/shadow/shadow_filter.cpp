@@ -84,6 +84,33 @@ int opening_radius(const StateGrid& grid, double edge_m) {
   return std::max(0, int(std::floor(0.5 * (voxels - 1))));
 }
 
+namespace {
+
+bool filters(const WorldModel& world, const VolumeOptions& options) {
+  if (options.filter != FalseShadowFilter::automatic) {
+    return options.filter == FalseShadowFilter::on;
+  }
+  return options.noise.subpixel_px > 0 &&
+         std::ranges::any_of(world.cameras,
+                             [](const DepthCamera& c) { return c.depth != nullptr; });
+}
+
+}  // namespace
+
+std::shared_ptr<const StateGrid> without_false_shadow(std::shared_ptr<const StateGrid> grid,
+                                                      const WorldModel& world,
+                                                      const VolumeOptions& options) {
+  options.check();
+  if (!filters(world, options)) return grid;
+  const int radius = std::max(1, opening_radius(*grid, options.filter_m));
+  const auto opened = morphological_open(*grid, std::min(radius, 64));
+  const bool all_thin = opened->count(VoxelState::shadow) == 0;
+  if (all_thin && options.filter == FalseShadowFilter::automatic) return grid;
+  auto impl = std::make_unique<volume::detail::StateGridImpl>(opened->impl());
+  impl->report.false_shadow = grid->count(VoxelState::shadow) - opened->count(VoxelState::shadow);
+  return std::make_shared<const StateGrid>(std::move(impl));
+}
+
 MaskTree volume::detail::shell_voxels(const StateGrid& grid) {
   MaskTree around = grid.impl().shadow;
   around.voxelizeActiveTiles();

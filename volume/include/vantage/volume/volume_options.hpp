@@ -35,7 +35,15 @@ struct StereoNoise {
   bool operator==(const StereoNoise&) const = default;
 };
 
-/// How `ShadowVolume` and `classify` decide.
+/// Whether thin shadow counts as free before views are planned (`without_false_shadow`).
+enum class FalseShadowFilter {
+  automatic,  ///< if a camera has a depth image, its depths are noisy, and something thicker is
+              ///< left
+  off,
+  on,
+};
+
+/// How `ShadowVolume` and `classify` decide, and what planning makes of it.
 struct VolumeOptions {
   OccluderMode occluders = OccluderMode::mesh;
 
@@ -52,10 +60,16 @@ struct VolumeOptions {
   /// your sensor's.
   StereoNoise noise = {};
 
+  /// Noise leaves shadow along surfaces that cameras see. What a cube of `filter_m` does not fit in
+  /// is taken for that: at least 3 voxels along each edge. Planning filters what was classified;
+  /// `classify` and `ShadowVolume` themselves do not.
+  FalseShadowFilter filter = FalseShadowFilter::automatic;
+  double filter_m = 0.02;
+
   bool anti_aliased() const { return anti_alias.value_or(occluders == OccluderMode::voxels); }
 
-  /// @throws Error bad_input unless the sigmas are finite and not negative, and as
-  /// `StereoNoise::check` does.
+  /// @throws Error bad_input unless the sigmas and the filter's edge are finite and not negative,
+  /// and as `StereoNoise::check` does.
   VANTAGE_API void check() const;
   bool operator==(const VolumeOptions&) const = default;
 };

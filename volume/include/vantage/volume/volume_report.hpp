@@ -23,6 +23,9 @@ struct VolumeReport {
   /// Shadow that anti-aliasing removed, or would have removed where it is off.
   std::uint64_t aliased_shadow = 0;
 
+  /// Shadow that `without_false_shadow` took away.
+  std::uint64_t false_shadow = 0;
+
   /// Objects with conflicts only, in the order of the world model (objects, then structures).
   std::vector<ObjectConflict> conflicts;
 

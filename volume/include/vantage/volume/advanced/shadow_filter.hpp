@@ -4,7 +4,9 @@
 
 #include "vantage/raycore/export.hpp"
 #include "vantage/raycore/triangle_mesh.hpp"
+#include "vantage/raycore/world_model.hpp"
 #include "vantage/volume/state_grid.hpp"
+#include "vantage/volume/volume_options.hpp"
 
 namespace vantage {
 
@@ -25,6 +27,13 @@ VANTAGE_API std::shared_ptr<const StateGrid> morphological_open(const StateGrid&
 /// The radius that opens by cubes of an edge, as nearly as voxels allow: not larger than it.
 /// @throws Error bad_input unless `edge_m` is finite and not negative.
 VANTAGE_API int opening_radius(const StateGrid& grid, double edge_m);
+
+/// What planning takes for shadow: the grid without the thin shadow of noise, if the options say
+/// so, and what that was in its report; else the grid itself.
+/// @param grid a classification of `world` by `options`; never null.
+/// @throws Error bad_input as `VolumeOptions::check` does.
+VANTAGE_API std::shared_ptr<const StateGrid> without_false_shadow(
+    std::shared_ptr<const StateGrid> grid, const WorldModel& world, const VolumeOptions& options);
 
 /// A closed mesh that looks outwards, world frame, around the shadow and the voxels next to it,
 /// also those beyond the grid's box: with it as its shell, a `UnobservedSpace` has what a filter
