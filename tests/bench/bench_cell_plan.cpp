@@ -1,6 +1,6 @@
 // Plans of simulated workcells, from a classified grid to the answer, in all threads of the
-// machine: voxel and shadow D6, production and full set, servo 5, with and without polishing. What
-// hides is voxels, as in the thesis.
+// machine: voxel (by bound, and by expected gain) and shadow D6, production and full set, servo 5,
+// with and without polishing. What hides is voxels, as in the thesis.
 //
 //   bench_cell_plan [CELL...] [--benchmark_...]
 //
@@ -40,7 +40,9 @@ Shared classified(const std::string& name) {
 
 void add(const Shared& cell, const std::string& method, const std::string& set, int polish) {
   PlanRequest request = cell->cell.request;
-  request.method = method_named(method);
+  const bool expected = method == "expected";
+  request.method = expected ? Method(VoxelMethod{}) : method_named(method);
+  request.value = expected ? ViewValue::expected : ViewValue::bound;
   request.candidates = set == "full" ? full_views() : production_views();
   request.polish.views = polish;
   const std::string name =
@@ -60,7 +62,7 @@ void add(const Shared& cell, const std::string& method, const std::string& set, 
 
 void add_plans(const std::string& cell_name) {
   const Shared cell = classified(cell_name);
-  for (const char* method : {"voxel", "shadow"}) {
+  for (const char* method : {"voxel", "expected", "shadow"}) {
     for (const int polish : {0, 2}) add(cell, method, "production", polish);
     add(cell, method, "full", 0);
   }

@@ -147,6 +147,7 @@ Plan plan(const Fixture& f, const CandidateSet& set, int servo_iterations) {
   PlanRequest request{.work_area = f.scene.area, .intrinsics = f.scene.camera.intrinsics()};
   request.range = f.scene.camera.range();
   request.voxel_size_m = f.scene.grid->geometry().voxel_size_m();
+  request.value = ViewValue::bound;
   request.candidates = set;
   request.servo.iterations = servo_iterations;
   return plan_next_view(f.scene.world, f.scene.grid, request);

@@ -5,11 +5,15 @@
 
 namespace vantage::test {
 
+/// A small plan by the thesis' numbers: what views have in sight, of all of the shadow.
 inline PlanRequest small_request() {
   return {.work_area = random_workcell_area(),
           .intrinsics = {64, 48, 70, 70, 31.5, 23.5},
           .range = {0.1, 2},
-          .voxel_size_m = 0.01};
+          .voxel_size_m = 0.01,
+          .value = ViewValue::bound,
+          .views = {.min_gain_share = 0},
+          .volume = {.filter = FalseShadowFilter::off}};
 }
 
 /// A wall across x that one camera sees from -y.

@@ -42,18 +42,21 @@ struct ToolMaker {
   std::size_t candidates;
 
   MethodTools operator()(const VoxelMethod&) const {
-    const auto scorer = std::make_shared<const VoxelScorer>(scene);
-    return {scorer, scorer, plain_sight(), scene.middle_of_shadow()};
+    const auto bound = voxels();
+    const auto expected = gain();
+    std::shared_ptr<const ViewScorer> scorer = expected;
+    if (request.value == ViewValue::bound) scorer = bound;
+    return {scorer, bound, expected, plain_sight(), scene.middle_of_shadow()};
   }
 
   MethodTools operator()(const ShadowMethod& method) const {
     const auto scorer =
         std::make_shared<const ShadowScorer>(scene, request.range, method.depth_power);
-    return {scorer, voxels(), scorer, scene.middle_of_shadow()};
+    return {scorer, voxels(), gain(), scorer, scene.middle_of_shadow()};
   }
 
   MethodTools operator()(const LightMethod&) const {
-    return {std::make_shared<const LightScorer>(scene, world), voxels(), plain_sight(),
+    return {std::make_shared<const LightScorer>(scene, world), voxels(), gain(), plain_sight(),
             scene.middle_of_shadow()};
   }
 
@@ -62,7 +65,7 @@ struct ToolMaker {
         seen_world(world, scene.grid().geometry().box(), request.volume.noise, method);
     const auto scorer = std::make_shared<const MeshScorer>(seen, request.range, method.depth_power,
                                                            method.image_width, method.weight);
-    MethodTools tools{scorer, voxels(), scorer, middle_of_unseen(seen)};
+    MethodTools tools{scorer, voxels(), gain(), scorer, middle_of_unseen(seen)};
     const std::size_t views = candidates * std::size_t(request.servo.iterations + 1);
     if (views > std::size_t(method.exact_views)) add_shortlist(seen, method, tools);
     return tools;
@@ -71,6 +74,10 @@ struct ToolMaker {
  private:
   std::shared_ptr<const VoxelScorer> voxels() const {
     return std::make_shared<const VoxelScorer>(scene);
+  }
+
+  std::shared_ptr<const ExpectedScorer> gain() const {
+    return std::make_shared<const ExpectedScorer>(scene, world, request.volume, request.gain);
   }
 
   /// For scorers that do not look at images of the shadow themselves.

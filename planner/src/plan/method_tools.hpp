@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <memory>
 
+#include "vantage/planner/advanced/expected_scorer.hpp"
 #include "vantage/planner/advanced/planning_scene.hpp"
 #include "vantage/planner/advanced/shadow_view.hpp"
 #include "vantage/planner/advanced/voxel_scorer.hpp"
@@ -16,6 +17,7 @@ namespace vantage::planner::detail {
 struct MethodTools {
   std::shared_ptr<const ViewScorer> scorer;
   std::shared_ptr<const VoxelScorer> voxels;     ///< what views reveal; may be the scorer itself
+  std::shared_ptr<const ExpectedScorer> gain;    ///< what of that to expect; may be the scorer, too
   std::shared_ptr<const ShadowView> sight;       ///< what the servo looks at; null if there is none
   Eigen::Vector3d shadow_centre;                 ///< which servo and polishing measure distances to
   std::shared_ptr<const ViewScorer> cheap = {};  ///< picks a shortlist; null if there is to be none

@@ -9,6 +9,7 @@
 #include "plan/polish_ranked.hpp"
 #include "plan/view_sequence.hpp"
 #include "vantage/volume/advanced/classify.hpp"
+#include "vantage/volume/advanced/shadow_filter.hpp"
 
 namespace vantage {
 namespace {
@@ -26,6 +27,7 @@ void check(const PlanRequest& request) {
   request.search.check();
   request.views.check();
   check(request.method);
+  request.gain.check();
   request.volume.check();
 }
 
@@ -55,6 +57,7 @@ void search(const WorldModel& world, const std::vector<ViewCandidate>& views, Pl
     const PinholeCamera camera = context.camera().moved_to(view.T_world_cam);
     view.revealed_voxels =
         context.by_voxels() ? view.score : context.voxels().ViewScorer::score(camera).score;
+    view.gain = context.gain().estimate(camera);
   });
   plan.trace =
       planner::detail::trace(context, plan, plan.candidates[plan.ranked.front().candidate], stop);
@@ -71,6 +74,7 @@ Plan plan_of(const PlanRequest& request, const std::vector<ViewCandidate>& views
 void search_classified(const WorldModel& world, const std::vector<ViewCandidate>& views, Plan& plan,
                        const StopToken& stop) {
   const auto start = std::chrono::steady_clock::now();
+  plan.classified = without_false_shadow(plan.classified, world, plan.request.volume);
   plan.grid = plan.classified;
   search(world, views, plan, stop);
   plan.score_s = seconds_since(start);

@@ -29,7 +29,8 @@ class PlannerContext {
 
   const std::shared_ptr<const ViewScorer>& scorer() const { return context_.scorer; }
   const VoxelScorer& voxels() const { return *tools_.voxels; }
-  bool by_voxels() const { return tools_.scorer == tools_.voxels; }  ///< the method is `voxel`
+  const ExpectedScorer& gain() const { return *tools_.gain; }
+  bool by_voxels() const { return tools_.scorer == tools_.voxels; }  ///< `voxel`, by the bound
   const PinholeCamera& camera() const { return context_.camera; }
   const SearchTools& search_tools() const { return context_; }
 

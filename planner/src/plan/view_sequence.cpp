@@ -97,9 +97,11 @@ PlanRequest from_view(PlanRequest request, const Pose& T_world_cam) {
   return request;
 }
 
-bool worth_it(const Plan& plan, std::uint64_t revealed_voxels) {
+/// By what a plan's views are chosen by.
+bool worth_it(const Plan& plan, std::uint64_t revealed_voxels, const GainEstimate& gain) {
   const ViewSequenceOptions& views = plan.request.views;
-  const double gain_m3 = plan.volume_m3(revealed_voxels);
+  const bool expected = plan.request.value == ViewValue::expected;
+  const double gain_m3 = expected ? gain.expected_m3 : plan.volume_m3(revealed_voxels);
   return revealed_voxels > 0 && gain_m3 >= views.min_gain_m3 &&
          gain_m3 >= views.min_gain_share * plan.classified->volume_m3(VoxelState::shadow);
 }
@@ -132,7 +134,9 @@ void add_next_views(const WorldModel& world, const PlannerContext& context, Plan
     std::vector<RankedView> best{*next};
     if (!polish(left, best, stop)) break;
     const PinholeCamera view = context.camera().moved_to(best.front().T_world_cam);
-    if (!worth_it(plan, left.voxels().score(view).score)) return;
+    const GainEstimate gain = left.gain().estimate(view);
+    if (!worth_it(plan, left.voxels().score(view).score, gain)) return;
+    best.front().gain = gain;
     add_view(left.voxels(), context.camera(), best.front(), plan);
   }
   if (int(plan.views.size()) < plan.request.views.most && plan.stopped == StopReason::none) {

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "vantage/planner/expected_gain.hpp"
 #include "vantage/planner/methods.hpp"
 #include "vantage/planner/plan_options.hpp"
 #include "vantage/planner/scored_views.hpp"
@@ -36,6 +37,10 @@ struct PlanRequest {
   CandidateSet candidates = production_views();
   ViewConstraints constraints = {};
   Method method = VoxelMethod{};
+  /// What the voxel method scores views by. The other methods' scores are their own; what their
+  /// views are expected to gain is told beside them.
+  ViewValue value = ViewValue::expected;
+  ExpectedGainOptions gain = {};  ///< from what the expected gain is reckoned
   ServoOptions servo = {};
   PolishOptions polish = {};
   SearchOptions search = {};
@@ -47,8 +52,8 @@ struct PlanRequest {
 
 /// One of the views to take, in their order.
 struct NextView {
-  RankedView view;
-  std::uint64_t revealed_voxels = 0;  ///< of the shadow that the views before it left
+  RankedView view;  ///< its gain is of the shadow that the views before it left, too
+  std::uint64_t revealed_voxels = 0;  ///< in sight, of the shadow that the views before it left
 };
 
 /// The answer. With `stopped` other than none it is partial: the best of what was finished, not
@@ -63,8 +68,9 @@ struct Plan {
                                                  ///< polished, last where that led
   std::vector<NextView> views = {};              ///< the first is `ranked.front()`
   std::size_t finished = 0;  ///< candidates: rejected, scored, surpassed, passed over
-  std::shared_ptr<const StateGrid> classified = {};  ///< as the given cameras left it
-  std::shared_ptr<const StateGrid> grid = {};        ///< with what all of `views` reveal
+  /// As the given cameras left it, without what `VolumeOptions::filter` took away.
+  std::shared_ptr<const StateGrid> classified = {};
+  std::shared_ptr<const StateGrid> grid = {};  ///< with what all of `views` reveal
   StopReason stopped = StopReason::none;
   double classify_s = 0;
   double score_s = 0;
@@ -84,7 +90,8 @@ struct Plan {
 };
 
 /// Finds the view that a method likes best, and if more are asked for, those to take after it:
-/// classify, generate candidates, reject those that cannot be, search, polish the best.
+/// classify, take away false shadow (`without_false_shadow`), generate candidates, reject those
+/// that cannot be, search, polish the best.
 ///
 /// Further views are chosen greedily by their joint gain. The voxel method's gain is submodular, so
 /// that what k views reveal is at least 1 - 1/e of the most that any k of the candidates (and their

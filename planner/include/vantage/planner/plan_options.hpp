@@ -48,8 +48,8 @@ struct SearchOptions {
 /// How many views are to be planned, one after the other, and when it is enough.
 struct ViewSequenceOptions {
   int most = 1;
-  double min_gain_m3 = 0;     ///< a further view that reveals less is not worth it
-  double min_gain_share = 0;  ///< the same as a share of all shadow, 0 to 1
+  double min_gain_m3 = 0;        ///< a further view that is to reveal less is not worth it
+  double min_gain_share = 0.01;  ///< the same as a share of all shadow, 0 to 1
 
   /// @throws Error bad_input unless 1 <= most <= 1000, and for gains that are negative or not
   /// finite, or a share above 1.

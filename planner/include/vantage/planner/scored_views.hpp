@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "vantage/planner/expected_gain.hpp"
 #include "vantage/planner/view_candidates.hpp"
 #include "vantage/planner/view_constraints.hpp"
 #include "vantage/planner/view_scorer.hpp"
@@ -82,7 +83,8 @@ struct RankedView {
   int servo_iteration = 0;
   Score score = 0;
   Score utility = 0;                                  ///< the score, less what the journey costs
-  std::optional<std::uint64_t> revealed_voxels = {};  ///< what the voxel method says; set by a plan
+  std::optional<std::uint64_t> revealed_voxels = {};  ///< shadow in sight; set by a plan
+  std::optional<GainEstimate> gain = {};              ///< what of it to expect; set by a plan
   std::vector<PolishStep> polish = {};                ///< from the servo iteration on; by a plan
 };
 

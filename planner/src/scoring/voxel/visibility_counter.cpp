@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstring>
 
 #include "vantage/raycore/detail/multiversion.hpp"
@@ -31,6 +32,23 @@ constexpr std::size_t kFewestPackets = 4;
 }
 constexpr Multiversion<count_seen_body> count_seen;
 
+/// Moves a packet's points towards a place, by as much as a surface's band is thick at their
+/// distance, and never past the middle of the way.
+[[gnu::always_inline]] inline void move_towards_body(
+    const float* __restrict x, const float* __restrict y, const float* __restrict z,
+    const Eigen::Vector3f& to, float half, float half_1m, float* __restrict out_x,
+    float* __restrict out_y, float* __restrict out_z) {
+  const float to_x = to.x(), to_y = to.y(), to_z = to.z();
+  for (std::size_t i = 0; i < kPacketWidth; ++i) {
+    const float dx = to_x - x[i], dy = to_y - y[i], dz = to_z - z[i];
+    const float squared = dx * dx + dy * dy + dz * dz;
+    const float noise = half_1m * squared, band = noise > half ? noise : half;
+    const float share = band / std::sqrt(squared), part = share < 0.5f ? share : 0.5f;
+    out_x[i] = x[i] + part * dx, out_y[i] = y[i] + part * dy, out_z[i] = z[i] + part * dz;
+  }
+}
+constexpr Multiversion<move_towards_body> move_towards;
+
 /// Of a packet whose lanes are the lowest ones.
 Score points_in(std::uint16_t lanes) {
   return Score(std::bit_width(lanes));
@@ -46,9 +64,39 @@ void fill_blocks(const PointPackets& set, std::size_t level, std::size_t box, In
 
 }  // namespace
 
-ViewCounter::ViewCounter(const PointPackets& set, const Scene& occluders,
+void SegmentTracer::occluded(const Eigen::Vector3d& centre, std::span<const std::uint32_t> packets,
+                             std::span<const std::uint16_t> wanted,
+                             std::span<std::uint16_t> hidden) {
+  trace(obstacles_.front(), centre, packets, wanted, hidden);
+  for (const Obstacles& obstacles : obstacles_.subspan(1)) {
+    open_.resize(packets.size()), more_.resize(packets.size());
+    for (std::size_t i = 0; i < packets.size(); ++i) open_[i] = wanted[i] & ~hidden[i];
+    trace(obstacles, centre, packets, open_, more_);
+    for (std::size_t i = 0; i < packets.size(); ++i) hidden[i] |= more_[i];
+  }
+}
+
+void SegmentTracer::trace(const Obstacles& obstacles, const Eigen::Vector3d& centre,
+                          std::span<const std::uint32_t> packets,
+                          std::span<const std::uint16_t> wanted, std::span<std::uint16_t> hidden) {
+  const Eigen::Vector3f to = centre.cast<float>();
+  const auto least_m = float(obstacles.band.least_m), at_1m = float(obstacles.band.at_1m);
+  if (least_m == 0 && at_1m == 0) {
+    return obstacles.scene->occluded(points_, to, packets, wanted, hidden);
+  }
+  starts_.resize(packets.size() * kPacketWidth), in_order_.resize(packets.size());
+  for (std::size_t i = 0; i < packets.size(); ++i) {
+    const std::size_t first = std::size_t(packets[i]) * kPacketWidth, out = i * kPacketWidth;
+    in_order_[i] = std::uint32_t(i);
+    move_towards(points_.x + first, points_.y + first, points_.z + first, to, least_m, at_1m,
+                 &starts_.x[out], &starts_.y[out], &starts_.z[out]);
+  }
+  obstacles.scene->occluded(starts_, to, in_order_, wanted, hidden);
+}
+
+ViewCounter::ViewCounter(const PointPackets& set, std::span<const Obstacles> obstacles,
                          std::span<const PinholeCamera> views, std::span<const Score> needed)
-    : set_(set), occluders_(occluders), views_(views), needed_(needed) {}
+    : set_(set), tracer_(set.points, obstacles), views_(views), needed_(needed) {}
 
 void ViewCounter::run(const StopToken& stop, std::span<ScoreBound> results) {
   active_.reserve(views_.size()), found_.reserve(2 * kBlocksPerParent);
@@ -63,7 +111,10 @@ void ViewCounter::run(const StopToken& stop, std::span<ScoreBound> results) {
     done_ += size;
     if (done_ < set_.packets()) drop_hopeless(results);
   }
-  for (const View& view : active_) results[view.index] = {ScoreBound::Known::exact, view.bound};
+  for (View& view : active_) {
+    results[view.index] = {ScoreBound::Known::exact, view.bound};
+    if (!kept_.empty()) kept_[view.index] = {set_.spread, std::move(view.seen)};
+  }
 }
 
 /// Takes a view in if its boxes do not say enough. Most do, often the first few that are out of
@@ -118,9 +169,12 @@ void ViewCounter::look_at(std::span<const std::uint32_t> packets) {
     active_[v].bound -= find_in_view(active_[v], packets, in_view);
     for (std::size_t i = 0; i < size; ++i) wanted_[i] |= in_view[i];
   }
-  occluders_.occluded(set_.points, views_[0].centre().cast<float>(), packets, wanted_, hidden_);
+  tracer_.occluded(views_[0].centre(), packets, wanted_, hidden_);
   for (std::size_t v = 0; v < active_.size(); ++v) {
-    active_[v].bound += count_seen(&in_view_[v * size], hidden_.data(), size);
+    const std::uint16_t* const in_view = &in_view_[v * size];
+    active_[v].bound += count_seen(in_view, hidden_.data(), size);
+    if (kept_.empty()) continue;
+    for (std::size_t i = 0; i < size; ++i) active_[v].seen.push_back(in_view[i] & ~hidden_[i]);
   }
 }
 

@@ -40,13 +40,15 @@ void check_views(std::span<const PinholeCamera> views, std::size_t needed, std::
 }  // namespace
 
 struct VisiblePoints::Impl {
-  std::shared_ptr<const Scene> occluders;
+  std::vector<Obstacles> obstacles;
   planner::detail::PointPackets set;
 };
 
 VisiblePoints::VisiblePoints(Points points, std::shared_ptr<const Scene> occluders)
+    : VisiblePoints(std::move(points), std::vector<Obstacles>{{std::move(occluders)}}) {}
+VisiblePoints::VisiblePoints(Points points, std::vector<Obstacles> obstacles)
     : impl_(std::make_unique<const Impl>(
-          Impl{std::move(occluders), planner::detail::PointPackets(checked(points))})) {}
+          Impl{std::move(obstacles), planner::detail::PointPackets(checked(points))})) {}
 VisiblePoints::~VisiblePoints() = default;
 VisiblePoints::VisiblePoints(VisiblePoints&&) noexcept = default;
 VisiblePoints& VisiblePoints::operator=(VisiblePoints&&) noexcept = default;
@@ -71,7 +73,23 @@ void VisiblePoints::count(std::span<const PinholeCamera> views, std::span<const 
                           std::span<ScoreBound> results, const StopToken& stop) const {
   check_views(views, needed.size(), results.size());
   if (views.empty()) return;
-  planner::detail::ViewCounter(impl_->set, *impl_->occluders, views, needed).run(stop, results);
+  planner::detail::ViewCounter(impl_->set, impl_->obstacles, views, needed).run(stop, results);
+}
+
+void VisiblePoints::count(std::span<const PinholeCamera> views, std::span<const Score> needed,
+                          std::span<ScoreBound> results, std::span<VisibleMasks> seen,
+                          const StopToken& stop) const {
+  check_views(views, needed.size(), results.size());
+  if (seen.size() != views.size())
+    throw bad_input("views", "expected a place for each one's points");
+  if (views.empty()) return;
+  planner::detail::ViewCounter counter(impl_->set, impl_->obstacles, views, needed);
+  counter.keep(seen);
+  counter.run(stop, results);
+}
+
+PointsView VisiblePoints::ordered_points() const noexcept {
+  return impl_->set.points;
 }
 
 std::vector<std::uint8_t> VisiblePoints::visible(const PinholeCamera& view) const {
@@ -79,7 +97,8 @@ std::vector<std::uint8_t> VisiblePoints::visible(const PinholeCamera& view) cons
   std::vector<std::uint8_t> result(set.size);
   const std::vector<std::uint16_t> in_view = in_view_masks(set, view);
   std::vector<std::uint16_t> hidden(set.packets());
-  impl_->occluders->occluded(set.points, view.centre().cast<float>(), set.spread, in_view, hidden);
+  planner::detail::SegmentTracer(set.points, impl_->obstacles)
+      .occluded(view.centre(), set.spread, in_view, hidden);
   for (std::size_t i = 0; i < set.packets(); ++i) {
     for (std::size_t lane = 0; lane < kPacketWidth; ++lane) {
       if (((in_view[i] & ~hidden[i]) >> lane & 1) == 0) continue;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <bit>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -14,6 +16,36 @@
 
 namespace vantage {
 
+/// Points that a view sees: bit l of `masks[i]` for point l of packet `packets[i]` of
+/// `VisiblePoints::ordered_points`.
+struct VisibleMasks {
+  std::span<const std::uint32_t> packets;
+  std::vector<std::uint16_t> masks;
+
+  /// Calls `visit(point)` for every one of them.
+  template <class Visit>
+  void for_each(const Visit& visit) const {
+    for (std::size_t i = 0; i < masks.size(); ++i) {
+      for (unsigned rest = masks[i]; rest != 0; rest &= rest - 1) {
+        visit(std::size_t(packets[i]) * kPacketWidth + std::size_t(std::countr_zero(rest)));
+      }
+    }
+  }
+};
+
+/// How deep behind a surface points count as seen with it, metres: max(least_m, at_1m · distance²),
+/// by the distance of the camera.
+struct SurfaceBand {
+  double least_m = 0;
+  double at_1m = 0;
+};
+
+/// What hides points.
+struct Obstacles {
+  std::shared_ptr<const Scene> scene;
+  SurfaceBand band = {};
+};
+
 /// Counts which of a fixed set of points views see: inside the image and the depth range, and past
 /// everything in a scene. What hides a point depends on the camera's centre only, so that views
 /// with one centre share their rays.
@@ -23,6 +55,7 @@ class VANTAGE_API VisiblePoints {
  public:
   /// @throws Error bad_input for a point that is not finite.
   VisiblePoints(Points points, std::shared_ptr<const Scene> occluders);
+  VisiblePoints(Points points, std::vector<Obstacles> obstacles);
   ~VisiblePoints();
   VisiblePoints(VisiblePoints&&) noexcept;
   VisiblePoints& operator=(VisiblePoints&&) noexcept;
@@ -36,6 +69,16 @@ class VANTAGE_API VisiblePoints {
   /// @throws Error bad_input for spans of different sizes, and for views with different centres.
   void count(std::span<const PinholeCamera> views, std::span<const Score> needed,
              std::span<ScoreBound> results, const StopToken& stop) const;
+
+  /// The same; and of the views whose counts are exact, the points that they see, as `visible` has
+  /// them but packet by packet: for whoever weighs them.
+  /// @param seen one for each view; empty where the count is not exact, or 0.
+  void count(std::span<const PinholeCamera> views, std::span<const Score> needed,
+             std::span<ScoreBound> results, std::span<VisibleMasks> seen,
+             const StopToken& stop) const;
+
+  /// The points in the order of their packets.
+  PointsView ordered_points() const noexcept;
 
   /// 1 or 0 for every point, in the order in which they were given.
   std::vector<std::uint8_t> visible(const PinholeCamera& view) const;

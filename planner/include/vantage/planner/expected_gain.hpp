@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstdint>
+
+#include "vantage/raycore/export.hpp"
+#include "vantage/volume/stereo_sensor.hpp"
+
+namespace vantage {
+
+/// Which number the voxel method scores a view by.
+enum class ViewValue {
+  expected,  ///< the volume that the movable camera will really turn from shadow to free or
+             ///< occupied
+  bound,  ///< the shadow that it has in sight, if it measures everything and nothing unknown is in
+          ///< the way: the thesis' number, and an upper bound of the other
+};
+
+/// From what the expected gain of a view is reckoned (`ExpectedScorer`).
+struct ExpectedGainOptions {
+  /// Of the movable camera. `StereoSensor::ideal()` measures whatever it has in sight.
+  StereoSensor sensor = {};
+
+  /// How deep things are of which cameras have measured the front, but that no model knows, as a
+  /// multiple of how wide they look, the narrower way: a shadow voxel at s behind the front of a
+  /// thing w wide is inside of it with probability exp(-(s / (unknown_depth w))²). The default is
+  /// from simulated cells (`vantage evaluate expected-gain`). 0: nothing unknown stands anywhere.
+  double unknown_depth = 0.8;
+
+  /// @throws Error bad_input as `StereoSensor::check` does, and unless the depth is finite and not
+  /// negative.
+  VANTAGE_API void check() const;
+  bool operator==(const ExpectedGainOptions&) const = default;
+};
+
+/// What a view is expected to gain, in volume.
+struct GainEstimate {
+  double expected_m3 = 0;
+  double low_m3 = 0, high_m3 = 0;  ///< nine of ten views gain something in between
+  bool operator==(const GainEstimate&) const = default;
+};
+
+}  // namespace vantage
