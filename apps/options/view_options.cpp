@@ -51,6 +51,20 @@ Field mesh_weight_field(ViewOptions& options) {
           .expert = true};
 }
 
+const EnumNames<ViewValue> kValues{{"expected", ViewValue::expected}, {"bound", ViewValue::bound}};
+
+Field sensor_field(ViewOptions& options) {
+  return {.key = "sensor",
+          .value = Choice{
+              {"stereo", "ideal"},
+              [&options] { return options.ideal_sensor ? "ideal" : "stereo"; },
+              [&options](const std::string& name) { options.ideal_sensor = name == "ideal"; }},
+          .help =
+              "How the movable camera measures depth; stereo: as movable_camera.depth says, a "
+              "RealSense D435 without it; ideal: whatever it has in sight",
+          .option = "--sensor"};
+}
+
 FieldGroup search_fields(ViewOptions& options) {
   return {"",
           "View search",
@@ -78,6 +92,27 @@ FieldGroup travel_fields(ViewOptions& options) {
 }
 
 }  // namespace
+
+FieldGroup expected_gain_fields(ViewOptions& options) {
+  return {
+      "",
+      "Method",
+      {{.key = "value",
+        .value = choice(options.value, kValues),
+        .help =
+            "Number that method voxel scores views by; expected: the volume that the movable "
+            "camera will really turn from shadow to free or occupied; bound: all that it has in "
+            "sight, as in the thesis",
+        .option = "--value"},
+       sensor_field(options),
+       {.key = "unknown_depth",
+        .value = &options.unknown_depth,
+        .help = "How deep things are whose front was measured, but that no model knows, in "
+                "multiples of their visible width; 0: nothing unknown stands anywhere",
+        .option = "--unknown-depth",
+        .range = not_negative(),
+        .expert = true}}};
+}
 
 FieldGroup fields_of(ServoOptions& servo) {
   return {"servo",
@@ -206,8 +241,8 @@ FieldGroup fields_of(ViewOptions& options) {
   return {"",
           "Method",
           {method_field(options.method), depth_power_field(options)},
-          {mesh, fields_of(options.servo), fields_of(options.polish), search_fields(options),
-           travel_fields(options), fields_of(options.views)}};
+          {expected_gain_fields(options), mesh, fields_of(options.servo), fields_of(options.polish),
+           search_fields(options), travel_fields(options), fields_of(options.views)}};
 }
 
 MeshMethod ViewOptions::mesh_method() const {
@@ -231,6 +266,8 @@ void ViewOptions::apply(PlanRequest& request) const {
                     "both: give --from X Y Z, or from_m beside weight_per_m");
   }
   request.method = chosen();
+  request.value = value;
+  request.gain = {ideal_sensor ? StereoSensor::ideal() : sensor, unknown_depth};
   request.servo = servo;
   request.polish = polish;
   request.search.ranked = ranked;

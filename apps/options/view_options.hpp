@@ -13,6 +13,10 @@ namespace vantage {
 /// it.
 struct ViewOptions {
   std::string method{VoxelMethod::kName};
+  ViewValue value = ViewValue::expected;
+  bool ideal_sensor = false;  ///< the movable camera measures all that it has in sight
+  StereoSensor sensor;        ///< else this is how it measures
+  double unknown_depth = ExpectedGainOptions().unknown_depth;
   MeshMethod mesh;                        ///< but for its weight and power
   std::optional<double> depth_power;      ///< not given: the default
   std::optional<MeshWeight> mesh_weight;  ///< not given: by depth if its power is
@@ -37,6 +41,8 @@ struct ViewOptions {
 // The descriptions point into what they describe.
 
 FieldGroup fields_of(ViewOptions& options);
+/// How the expected gain is reckoned; the sensor itself is described with the movable camera.
+FieldGroup expected_gain_fields(ViewOptions& options);
 FieldGroup fields_of(ServoOptions& servo);
 FieldGroup fields_of(PolishOptions& polish);
 FieldGroup fields_of(MeshMethod& mesh);

@@ -21,11 +21,11 @@ PlanRequest plan_request(const Workcell& workcell, const Intrinsics& usual);
 /// What `vantage plan` was asked for. What is set here overrides the workcell file.
 struct PlanOptions {
   std::filesystem::path dataset;
-  std::filesystem::path workcell;  ///< empty: none
-  std::vector<double> work_area;   ///< x0 y0 z0 x1 y1 z1; empty: from the workcell
-  std::vector<int> images;         ///< empty: all of the dataset
+  std::filesystem::path workcell;      ///< empty: none
+  std::vector<double> work_area = {};  ///< x0 y0 z0 x1 y1 z1; empty: from the workcell
+  std::vector<int> images = {};        ///< empty: all of the dataset
   ObjectSource objects = {};
-  std::vector<double> depth_range;  ///< near, far of all cameras; empty: from the workcell
+  std::vector<double> depth_range = {};  ///< near, far of all cameras; empty: from the workcell
   CandidateOptions candidates = {};
   /// Of the voxel size, the volume and the views, by the keys of their fields (options/).
   nlohmann::json given = nlohmann::json::object();

@@ -11,6 +11,7 @@
 #include "documents/value_readers.hpp"
 #include "documents/yaml_document.hpp"
 #include "options/field_json.hpp"
+#include "options/sensor_fields.hpp"
 #include "options/volume_fields.hpp"
 #include "workcell/view_list.hpp"
 #include "workcell/workcell_views.hpp"
@@ -40,6 +41,10 @@ void read_sensor(const Value& value, const fs::path& folder, Workcell& workcell)
 void read_movable_camera(const Value& value, Workcell& workcell) {
   workcell.movable_intrinsics = read_intrinsics(value);
   if (value.has("depth_range_m")) workcell.movable_range = read_range(value["depth_range_m"]);
+  if (value.has("depth")) {
+    read_fields(value["depth"], fields_of(workcell.plan.sensor));
+    workcell.plan.sensor.check(value["depth"].place());
+  }
 }
 
 std::vector<CellCamera> read_cameras(const Value& value, const Workcell& workcell) {

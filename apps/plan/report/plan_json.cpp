@@ -6,6 +6,7 @@
 #include "cli/pose_json.hpp"
 #include "cli/run_time.hpp"
 #include "options/field_json.hpp"
+#include "options/sensor_fields.hpp"
 #include "options/view_options.hpp"
 #include "options/volume_fields.hpp"
 #include "plan/report/candidate_json.hpp"
@@ -48,7 +49,8 @@ Json volumes_json(const Plan& plan) {
           {"shadow_hidden", volume_m3(plan, hidden)},
           {"shadow_unmeasured", volume_m3(plan, unmeasured)},
           {"shadow_outside", volume_m3(plan, outside)},
-          {"shadow_unseen", volume_m3(plan, outside)}};
+          {"shadow_unseen", volume_m3(plan, outside)},
+          {"false_shadow", volume_m3(plan, grid.report().false_shadow)}};
 }
 
 Json anti_alias_json(const Plan& plan) {
@@ -144,6 +146,13 @@ Json mesh_json(const Method& method) {
   return json;
 }
 
+Json expected_gain_json(const ExpectedGainOptions& gain) {
+  StereoSensor sensor = gain.sensor;
+  return {{"sensor", sensor == StereoSensor::ideal() ? "ideal" : "stereo"},
+          {"depth", to_json(fields_of(sensor))},
+          {"unknown_depth", gain.unknown_depth}};
+}
+
 Json travel_json(const PlanRequest& request) {
   if (!request.search.travel) return nullptr;
   return {{"weight_per_m", request.search.travel->weight_per_m},
@@ -165,6 +174,8 @@ Json config_of(const PlanRequest& used) {
       {"candidates", config_of(request.candidates, request.work_area)},
       {"constraints", config_of(request.constraints)},
       {"depth_power", depth_power_of(request.method)},
+      {"value", request.value == ViewValue::expected ? "expected" : "bound"},
+      {"expected_gain", expected_gain_json(request.gain)},
       {"mesh", mesh_json(request.method)},
       {"servo", to_json(fields_of(request.servo))},
       {"polish", to_json(fields_of(request.polish))},

@@ -42,11 +42,26 @@ std::string pose_text(const Pose& T_world_cam) {
   return text;
 }
 
-std::string reveals_text(const Plan& plan, std::uint64_t voxels) {
-  const double revealed = plan.volume_m3(voxels);
+double share_of_shadow(const Plan& plan, double part_m3) {
   const double shadow = plan.classified->volume_m3(VoxelState::shadow);
+  return shadow > 0 ? part_m3 / shadow : 0;
+}
+
+std::string at_most_text(const Plan& plan, std::uint64_t voxels) {
+  const double revealed = plan.volume_m3(voxels);
   return fmt::format("{}, {:.1f} % of the shadow", volume_text(revealed),
-                     shadow > 0 ? 100 * revealed / shadow : 0.0);
+                     100 * share_of_shadow(plan, revealed));
+}
+
+/// "about 20 cm³ (18 cm³ to 23 cm³), at most 79 cm³, 40 % of the shadow". What is measured as part
+/// of a surface may be more than what is in sight: then that is not the most.
+std::string reveals_text(const Plan& plan, std::uint64_t voxels,
+                         const std::optional<GainEstimate>& gain) {
+  if (!gain) return "at most " + at_most_text(plan, voxels);
+  const bool at_most = gain->high_m3 <= plan.volume_m3(voxels);
+  return fmt::format("about {} ({} to {}), {} {}", volume_text(gain->expected_m3),
+                     volume_text(gain->low_m3), volume_text(gain->high_m3),
+                     at_most ? "at most" : "in sight", at_most_text(plan, voxels));
 }
 
 /// Nothing for methods that look at all candidates.
@@ -81,7 +96,7 @@ std::string best_summary(const Plan& plan) {
       "{}"
       "reveals    {}\n",
       origin_text(plan, best), camera_text(best.T_world_cam), pose_text(best.T_world_cam),
-      reveals_text(plan, plan.views.front().revealed_voxels));
+      reveals_text(plan, plan.views.front().revealed_voxels, best.gain));
   if (!std::holds_alternative<VoxelMethod>(plan.request.method)) {
     text += fmt::format("score      {:.6g} {} (method {})\n", plan.in_units(best.score),
                         plan.score_unit_name, name_of(plan.request.method));
@@ -91,13 +106,13 @@ std::string best_summary(const Plan& plan) {
   for (std::size_t i = 1; i < plan.views.size(); ++i) {
     const NextView& next = plan.views[i];
     revealed += next.revealed_voxels;
-    text +=
-        fmt::format("view {:<6}candidate {} {}\n           reveals {} more\n", i + 1,
-                    plan.candidates[next.view.candidate].view.id,
-                    camera_text(next.view.T_world_cam), reveals_text(plan, next.revealed_voxels));
+    text += fmt::format("view {:<6}candidate {} {}\n           reveals {} more\n", i + 1,
+                        plan.candidates[next.view.candidate].view.id,
+                        camera_text(next.view.T_world_cam),
+                        reveals_text(plan, next.revealed_voxels, next.view.gain));
   }
   if (plan.views.size() > 1) {
-    text += fmt::format("together   {}\n", reveals_text(plan, revealed));
+    text += fmt::format("together   at most {}\n", at_most_text(plan, revealed));
   }
   return text;
 }
@@ -144,6 +159,10 @@ std::string volume_summary(const Plan& plan, const ShadowRegions& regions) {
   if (plan.request.volume.anti_aliased()) {
     text += fmt::format("anti-alias {} of thin shadow became free\n",
                         volume_text(double(grid.report().aliased_shadow) * voxel_m3));
+  }
+  if (grid.report().false_shadow > 0) {
+    text += fmt::format("filter     {} of thin shadow, as noise leaves it, became free\n",
+                        volume_text(double(grid.report().false_shadow) * voxel_m3));
   }
   for (const ObjectConflict& conflict : grid.report().conflicts) {
     text += fmt::format("conflict   {}: depth images see through {} of its {}\n", conflict.object,

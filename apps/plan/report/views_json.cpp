@@ -47,18 +47,28 @@ std::map<std::size_t, double> volumes_of_ranked(const Plan& plan) {
   return volumes;
 }
 
+/// What a view has in sight, and what of it to expect.
+void add_gain(const Plan& plan, std::uint64_t revealed_voxels,
+              const std::optional<GainEstimate>& gain, Json& json) {
+  json["newly_observed_volume_m3"] = plan.volume_m3(revealed_voxels);
+  if (!gain) return;
+  json["expected_volume_m3"] = gain->expected_m3;
+  json["expected_interval_m3"] = {gain->low_m3, gain->high_m3};
+}
+
 }  // namespace
 
 Json best_json(const Plan& plan) {
   const RankedView* best = plan.best();
   if (best == nullptr) return nullptr;
-  return {{"id", id_of(plan, *best)},
-          {"T_world_cam", to_json(best->T_world_cam)},
-          {"score", plan.in_units(best->score)},
-          {"newly_observed_volume_m3", plan.volume_m3(best->revealed_voxels.value())},
-          {"servo_iteration", best->servo_iteration},
-          {"servo_trace", trace_json(plan, plan.trace)},
-          {"polish", polish_json(*best)}};
+  Json json{{"id", id_of(plan, *best)},
+            {"T_world_cam", to_json(best->T_world_cam)},
+            {"score", plan.in_units(best->score)}};
+  add_gain(plan, best->revealed_voxels.value(), best->gain, json);
+  json["servo_iteration"] = best->servo_iteration;
+  json["servo_trace"] = trace_json(plan, plan.trace);
+  json["polish"] = polish_json(*best);
+  return json;
 }
 
 Json views_json(const Plan& plan) {
@@ -67,8 +77,8 @@ Json views_json(const Plan& plan) {
     views.push_back({{"id", id_of(plan, next.view)},
                      {"T_world_cam", to_json(next.view.T_world_cam)},
                      {"servo_iteration", next.view.servo_iteration},
-                     {"polish", polish_json(next.view)},
-                     {"newly_observed_volume_m3", plan.volume_m3(next.revealed_voxels)}});
+                     {"polish", polish_json(next.view)}});
+    add_gain(plan, next.revealed_voxels, next.view.gain, views.back());
   }
   return views;
 }
@@ -81,15 +91,16 @@ Json ranked_json(const Plan& plan) {
                       {"servo_iteration", view.servo_iteration},
                       {"polish", polish_json(view)},
                       {"score", plan.in_units(view.score)},
-                      {"after_travel", plan.in_units(view.utility)},
-                      {"newly_observed_volume_m3", plan.volume_m3(view.revealed_voxels.value())}});
+                      {"after_travel", plan.in_units(view.utility)}});
+    add_gain(plan, view.revealed_voxels.value(), view.gain, ranked.back());
   }
   return ranked;
 }
 
 Json candidates_json(const Plan& plan) {
   const std::map<std::size_t, double> volumes = volumes_of_ranked(plan);
-  const bool by_voxels = std::holds_alternative<VoxelMethod>(plan.request.method);
+  const bool by_voxels = std::holds_alternative<VoxelMethod>(plan.request.method) &&
+                         plan.request.value == ViewValue::bound;
   Json list = Json::array();
   for (std::size_t i = 0; i < plan.candidates.size(); ++i) {
     const ScoredCandidate& candidate = plan.candidates[i];
