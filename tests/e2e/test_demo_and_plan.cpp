@@ -136,9 +136,12 @@ TEST_CASE("settings of the volume: defaults, a workcell's, and the command line'
     return result.json()["config"]["volume"];
   };
   const nlohmann::json noise = {{"focal_px", 424.0}, {"baseline_m", 0.05}, {"subpixel_px", 0.08}};
-  CHECK(options(run_vantage(plan)) ==
-        nlohmann::json{
-            {"occluders", "mesh"}, {"anti_alias", false}, {"band_sigmas", 4.0}, {"noise", noise}});
+  CHECK(options(run_vantage(plan)) == nlohmann::json{{"occluders", "mesh"},
+                                                     {"anti_alias", false},
+                                                     {"band_sigmas", 4.0},
+                                                     {"filter", "auto"},
+                                                     {"filter_m", 0.02},
+                                                     {"noise", noise}});
   CHECK(options(run_vantage(plan + " --occluders voxels"))["anti_alias"] == true);
   const fs::path cell =
       folder.write("cell.yaml",
@@ -151,10 +154,12 @@ TEST_CASE("settings of the volume: defaults, a workcell's, and the command line'
   CHECK(from_cell["noise"]["subpixel_px"] == 0.1);
   CHECK(
       options(run_vantage(with_cell + " --occluders mesh --anti-alias on --band-sigmas 0"
-                                      " --depth-noise-px 0.2")) ==
+                                      " --depth-noise-px 0.2 --filter off --filter-edge 0.03")) ==
       nlohmann::json{{"occluders", "mesh"},
                      {"anti_alias", true},
                      {"band_sigmas", 0.0},
+                     {"filter", "off"},
+                     {"filter_m", 0.03},
                      {"noise", {{"focal_px", 424.0}, {"baseline_m", 0.05}, {"subpixel_px", 0.2}}}});
 }
 
@@ -330,7 +335,8 @@ TEST_CASE("a real Kinect recording: the suggested camera looks at the back of wh
 TEST_CASE("pictures of several views, as drafts, are the same at any number of threads") {
   const test::TemporaryFolder folder;
   const std::string plan = "plan" + test::quoted(test::write_scene(folder)) + test::kSceneArea +
-                           " --views 2 --pictures --picture-quality draft --picture-width 500";
+                           " --views 2 --least-gain-share 0 --value bound --filter off"
+                           " --pictures --picture-quality draft --picture-width 500";
   const fs::path one = folder / "one", three = folder / "three";
   const auto result = run_vantage(plan + " --threads 1 -o" + test::quoted(one));
   CAPTURE(result.err);

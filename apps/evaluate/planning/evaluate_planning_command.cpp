@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <iostream>
 #include <memory>
 
@@ -37,7 +38,10 @@ struct PlanningResult {
 
 PlanningBenchmarkOptions options_of(const PlanningCommandOptions& options) {
   PlanningBenchmarkOptions settings = options.benchmark;
-  choose(options.methods, options.sets, settings);
+  std::vector<std::string> methods = options.methods;
+  const bool there = std::ranges::find(methods, "expected") != methods.end();
+  if (options.value == "expected" && !there) methods.push_back("expected");
+  choose(methods, options.sets, settings);
   settings.given = options.given;
   read_given(options.given, {"", "", {}, {fields_of(settings.servo), fields_of(settings.polish)}});
   const bool drawn = !options.folder.empty() && !options.no_pictures;

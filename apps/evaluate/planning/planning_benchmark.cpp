@@ -18,6 +18,7 @@
 #include "vantage/planner/advanced/view_validity_checker.hpp"
 #include "vantage/planner/advanced/voxel_scorer.hpp"
 #include "vantage/volume/advanced/classify.hpp"
+#include "vantage/volume/advanced/shadow_filter.hpp"
 
 namespace vantage {
 namespace {
@@ -42,6 +43,7 @@ class SceneRun {
   SceneRun(const PlanningCell& cell, const PlanningBenchmarkOptions& settings,
            const StopToken& stop)
       : cell_(cell), settings_(settings), stop_(stop), request_(cell.request) {
+    request_.volume.filter = FalseShadowFilter::off;  // the thesis has none
     request_.servo = settings.servo;
     request_.polish = settings.polish;
     if (settings.given.contains(nlohmann::json::json_pointer("/volume/occluders"))) {
@@ -73,6 +75,9 @@ class SceneRun {
     for (int i = 0; i < settings_.repeat; ++i) {
       const auto start = StopToken::Clock::now();
       grid_ = classify(cell_.world, geometry, request_.volume, stop_);
+      if (grid_ != nullptr) {
+        grid_ = without_false_shadow(grid_, cell_.world, request_.volume);
+      }
       if (grid_ == nullptr) return false;
       scene.classify_s.push_back(seconds_since(start));
     }
@@ -108,6 +113,7 @@ class SceneRun {
 
   Plan timed_plan(const NamedMethod& method, MethodRun& run) {
     request_.method = method.method;
+    request_.value = method.value;
     const bool measured = std::holds_alternative<MeshMethod>(method.method);
     const WorldModel& world = measured ? cell_.measured : cell_.world;
     Plan plan = plan_next_view(world, grid_, request_, stop_);

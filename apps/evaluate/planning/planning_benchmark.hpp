@@ -16,9 +16,12 @@ namespace vantage {
 struct NamedMethod {
   std::string name;
   Method method;
+  ViewValue value =
+      ViewValue::bound;  ///< of method voxel: the thesis' number, or the expected gain
 };
 
-/// "voxel", "mesh", "light", "shadow" (D6), or "shadowD" and any power of the depth.
+/// "voxel", "expected" (the voxel method by expected gain), "mesh", "light", "shadow" (D6), or
+/// "shadowD" and any power of the depth.
 /// @throws Error bad_input for another name.
 NamedMethod named_method(const std::string& name);
 

@@ -10,6 +10,7 @@
 namespace vantage {
 namespace {
 
+constexpr const char* kExpected = "expected";
 const std::vector<std::string> kSets{"full", "production"};
 
 void refuse_twice(const std::string& where, const std::vector<std::string>& names) {
@@ -40,6 +41,7 @@ NamedMethod by_depth(const Kind& method) {
 }  // namespace
 
 NamedMethod named_method(const std::string& name) {
+  if (name == kExpected) return {name, VoxelMethod{}, ViewValue::expected};
   if (name == ShadowMethod::kName) return by_depth(ShadowMethod{});
   if (std::ranges::find(method_names(), name) != method_names().end()) {
     return {name, method_named(name)};
@@ -51,8 +53,8 @@ NamedMethod named_method(const std::string& name) {
     return by_depth(MeshMethod{.weight = MeshWeight::depth, .depth_power = *power});
   }
   throw bad_input("--methods",
-                  fmt::format("found '{}'; expected one of: {}; shadowD or meshD and a number from "
-                              "0 to 16 is that method with that power of the depth",
+                  fmt::format("found '{}'; expected one of: expected, {}; shadowD or meshD and a "
+                              "number from 0 to 16 is that method with that power of the depth",
                               name, fmt::join(method_names(), ", ")));
 }
 
@@ -72,7 +74,7 @@ void choose(const std::vector<std::string>& methods, const std::vector<std::stri
   refuse_twice("--candidates", sets);
   options.methods = {{std::string(VoxelMethod::kName), VoxelMethod{}}};
   for (NamedMethod& method : named_methods(methods)) {
-    if (std::holds_alternative<VoxelMethod>(method.method)) continue;
+    if (method.name == VoxelMethod::kName) continue;
     options.methods.push_back(std::move(method));
   }
   for (const std::string& set : kSets) {

@@ -31,11 +31,16 @@ void add_method_options(CLI::App& verb, PlanningCommandOptions& options) {
   ServoOptions servo;
   PolishOptions polish;
   VolumeOptions volume;
-  verb.add_option(
-          "--methods", options.methods,
-          "Methods, e.g. voxel,shadowD6,mesh,light; D and a number is the power of the depth. "
-          "voxel is always there: it is the measure")
+  verb.add_option("--methods", options.methods,
+                  "Methods, e.g. voxel,expected,shadowD6,mesh,light; D and a number is the power "
+                  "of the depth. "
+                  "voxel is always there: it is the measure")
       ->delimiter(',')
+      ->capture_default_str();
+  verb.add_option("--value", options.value,
+                  "bound: method voxel scores by all that a view has in sight, as in the thesis; "
+                  "expected: picks by the expected gain are compared, too, as method expected")
+      ->check(CLI::IsMember({"bound", "expected"}))
       ->capture_default_str();
   verb.add_option("--candidates", options.sets,
                   "Sets of views: full (34,225), production (40), or both")

@@ -17,6 +17,7 @@ struct PlanningCommandOptions {
   std::vector<std::string> methods{"voxel", "shadowD0", "shadowD3", "shadowD6",
                                    "mesh",  "meshD6",   "light"};
   std::vector<std::string> sets{"full", "production"};
+  std::string value = "bound";
   std::string depth = "none";
   std::uint64_t seed = 0;
   PlanningBenchmarkOptions benchmark;

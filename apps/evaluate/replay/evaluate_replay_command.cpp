@@ -26,7 +26,7 @@ using Json = nlohmann::ordered_json;
 
 struct ReplayCommandOptions {
   PlanOptions plan;
-  std::vector<std::string> methods{"voxel", "mesh", "meshD6"};
+  std::vector<std::string> methods{"expected", "voxel", "mesh", "meshD6"};
   ReplayBenchmarkOptions settings;
   fs::path folder;
   bool json = false;

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "metrics/reconstruction/frame_pairs.hpp"
+#include "vantage/planner/advanced/expected_scorer.hpp"
 #include "vantage/planner/advanced/make_view_scorer.hpp"
 #include "vantage/planner/advanced/planning_scene.hpp"
 #include "vantage/planner/advanced/voxel_scorer.hpp"
@@ -99,6 +100,7 @@ class Replay {
     }
     result.views.resize(others.size());
     const VoxelScorer voxels(scene);
+    const ExpectedScorer expected(scene, two, input_.request.volume, input_.request.gain);
     tbb::parallel_for(std::size_t(0), others.size(), [&](std::size_t i) {
       if (stop_.stop_requested()) return;
       const DepthCamera& frame = frames_[others[i]];
@@ -107,18 +109,28 @@ class Replay {
       result.views[i] = {
           .frame = std::stoi(frame.name),
           .predicted_gain_m3 = double(voxels.score(frame.camera).score) * voxels.unit(),
-          .real_gain_m3 = double(gain) * geometry_.voxel_volume_m3()};
+          .real_gain_m3 = double(gain) * geometry_.voxel_volume_m3(),
+          .expected_gain_m3 = double(expected.score(frame.camera).score) * expected.unit()};
       stop_.advance(1);
     });
     for (const NamedMethod& method : settings_.methods) choose(method, scene, two, others, result);
     return result;
   }
 
+  std::unique_ptr<const ViewScorer> scorer_of(const NamedMethod& method, const PlanningScene& scene,
+                                              const WorldModel& two) const {
+    const PlanRequest& request = input_.request;
+    if (method.value == ViewValue::expected) {
+      return std::make_unique<const ExpectedScorer>(scene, two, request.volume, request.gain);
+    }
+    return make_view_scorer(method.method, scene, two, frames_.front().camera.range(),
+                            request.volume.noise);
+  }
+
   /// Adds a method's scores and its pick.
   void choose(const NamedMethod& method, const PlanningScene& scene, const WorldModel& two,
               const std::vector<std::size_t>& others, ReplayPair& pair) const {
-    const auto scorer = make_view_scorer(method.method, scene, two, frames_.front().camera.range(),
-                                         input_.request.volume.noise);
+    const auto scorer = scorer_of(method, scene, two);
     std::vector<Score> scores(others.size());
     tbb::parallel_for(std::size_t(0), others.size(), [&](std::size_t i) {
       if (!stop_.stop_requested()) scores[i] = scorer->score(frames_[others[i]].camera).score;

@@ -13,6 +13,7 @@ Json pick_json(const ReplayEvaluation& evaluation, const ReplayPair& pair, std::
   return {{"method", evaluation.methods[method]},
           {"frame", pick.frame},
           {"predicted_gain_m3", pick.predicted_gain_m3},
+          {"expected_gain_m3", pick.expected_gain_m3},
           {"real_gain_m3", pick.real_gain_m3},
           {"share_of_best", worth ? Json(worth->share_of_best) : Json()},
           {"times_mean", worth ? Json(worth->times_mean) : Json()},
@@ -26,6 +27,7 @@ Json view_json(const ReplayEvaluation& evaluation, const ReplayView& view) {
   }
   return {{"frame", view.frame},
           {"predicted_gain_m3", view.predicted_gain_m3},
+          {"expected_gain_m3", view.expected_gain_m3},
           {"real_gain_m3", view.real_gain_m3},
           {"scores", scores}};
 }
@@ -54,6 +56,7 @@ Json means_json(const ReplayEvaluation& evaluation) {
     list.push_back({{"method", evaluation.methods[i]},
                     {"pairs", means.pairs},
                     {"predicted_gain_m3", value(means.predicted_gain_m3)},
+                    {"expected_gain_m3", value(means.expected_gain_m3)},
                     {"real_gain_m3", value(means.real_gain_m3)},
                     {"share_of_best", value(means.share_of_best)},
                     {"least_share_of_best", value(means.min_share_of_best)},
@@ -69,8 +72,10 @@ Json replay_to_json(const ReplayEvaluation& evaluation) {
   Json pairs = Json::array();
   for (const ReplayPair& pair : evaluation.pairs) pairs.push_back(pair_json(evaluation, pair));
   const auto blind = blind_share_of_best(evaluation);
+  const auto correlation = expected_rank_correlation(evaluation);
   return {{"vantage", kVersion},
           {"methods", means_json(evaluation)},
+          {"expected_rank_correlation", correlation ? Json(*correlation) : Json()},
           {"any_frame_share_of_best", blind ? Json(*blind) : Json()},
           {"pairs", pairs}};
 }

@@ -45,6 +45,7 @@ nlohmann::ordered_json json_of(const ShadowFilterEvaluation& evaluation,
   nlohmann::ordered_json json = to_json(evaluation);
   json["config"] = {{"scenes", options.scenes},
                     {"seed", options.seed},
+                    {"classified", options.settings.classified},
                     {"step_px", options.settings.step_px},
                     {"holes", options.holes}};
   std::vector<std::filesystem::path> files;
@@ -97,6 +98,10 @@ void add_filter_options(CLI::App& verb, ShadowFilterOptions& settings) {
 }
 
 void add_mesh_options(CLI::App& verb, ShadowFilterCommandOptions& options) {
+  verb.add_flag(
+      "--classified", options.settings.classified,
+      "Filter the voxels as planning classifies them, instead of carving the work area by "
+      "visibility meshes");
   verb.add_option("--step", options.settings.step_px,
                   "Every so many pixels a vertex of the visibility mesh")
       ->check(CLI::Range(1, 64))

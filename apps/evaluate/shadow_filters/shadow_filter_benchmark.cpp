@@ -3,6 +3,7 @@
 #include "simulator/scene/ground_truth.hpp"
 #include "vantage/raycore/error.hpp"
 #include "vantage/volume/advanced/carve.hpp"
+#include "vantage/volume/advanced/classify.hpp"
 #include "vantage/volume/advanced/shadow_filter.hpp"
 #include "vantage/volume/advanced/visibility.hpp"
 
@@ -37,7 +38,9 @@ std::shared_ptr<const StateGrid> filtered(const StateGrid& grid, const ShadowFil
 
 std::vector<ShadowFilter> filters_of(const ShadowFilterOptions& settings) {
   std::vector<ShadowFilter> filters;
-  for (const double offset : settings.offsets_sigmas)
+  std::vector<double> offsets = settings.offsets_sigmas;
+  if (settings.classified) offsets = {0};
+  for (const double offset : offsets)
     for (const int opening : settings.openings_voxels)
       for (const double min_cm3 : settings.min_cm3)
         filters.push_back({offset, opening, 1e-6 * min_cm3});
@@ -55,10 +58,11 @@ FilteredScene evaluate_shadow_filters(const PlanningCell& cell, const ShadowFilt
   for (const ShadowFilter& filter : filters_of(settings)) {
     if (offset != filter.offset_sigmas) {
       offset = filter.offset_sigmas;
-      grid = carve(lattices_of(cell, {.step_px = settings.step_px,
-                                      .holes = settings.holes,
-                                      .offset_sigmas = *offset}),
-                   geometry, known_of(cell), stop);
+      grid = settings.classified ? classify(cell.world, geometry, cell.request.volume, stop)
+                                 : carve(lattices_of(cell, {.step_px = settings.step_px,
+                                                            .holes = settings.holes,
+                                                            .offset_sigmas = *offset}),
+                                         geometry, known_of(cell), stop);
       if (grid == nullptr) return scene;
     }
     scene.scores.push_back(shadow.score(*filtered(*grid, filter)));

@@ -16,6 +16,8 @@ struct ShadowFilterOptions {
   std::vector<double> offsets_sigmas{0, 1, 2, 3, 4, 6};
   std::vector<int> openings_voxels{0, 1, 2};
   std::vector<double> min_cm3{0, 1, 10};
+  bool classified = false;  ///< the grid is as `classify` has it, not carved by visibility meshes:
+                            ///< then offsets make no difference, and the first one is all
   int step_px = 8;
   DepthHoles holes = DepthHoles::fill;
   double voxel_size_m = 0.0047;

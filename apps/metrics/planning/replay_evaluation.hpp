@@ -12,9 +12,10 @@ namespace vantage {
 /// A recorded frame as the view to take after two others.
 struct ReplayView {
   int frame = 0;                    ///< its image's id
-  double predicted_gain_m3 = 0;     ///< the shadow that it sees, by the voxel method
+  double predicted_gain_m3 = 0;     ///< the shadow that it has in sight, by the voxel method
   double real_gain_m3 = 0;          ///< the shadow that is none any more with its depth image
   std::vector<double> scores = {};  ///< by every method, in that method's unit
+  double expected_gain_m3 = 0;      ///< what it is expected to reveal of what it has in sight
 };
 
 /// Two frames as the cameras, and all others as the candidates.
@@ -51,11 +52,15 @@ std::optional<PickWorth> worth_of(const ReplayPair& pair, std::size_t method);
 struct ReplayMeans {
   std::size_t pairs = 0;
   double share_of_best = 0, min_share_of_best = 0, times_mean = 0, rank = 0;
-  double predicted_gain_m3 = 0, real_gain_m3 = 0;
+  double predicted_gain_m3 = 0, expected_gain_m3 = 0, real_gain_m3 = 0;
 };
 
 /// Of one method; nothing where no view of any pair revealed anything.
 std::optional<ReplayMeans> replay_means(const ReplayEvaluation& evaluation, std::size_t method);
+
+/// How well the expected gains order the frames: Spearman's rank correlation with the real gains,
+/// the mean over the pairs. Nothing without a pair whose frames differ.
+std::optional<double> expected_rank_correlation(const ReplayEvaluation& evaluation);
 
 /// What a blind choice among the views would give: the mean of the views' mean gain / the best
 /// view's.

@@ -20,7 +20,8 @@ TableRow pair_row(const ReplayPair& pair, std::size_t method) {
   const auto worth = worth_of(pair, method);
   return {{fmt::format("{}, {}", pair.frames[0], pair.frames[1]), m3_text(pair.shadow_m3),
            std::to_string(best.frame), m3_text(best.real_gain_m3), m3_text(mean_gain_m3(pair)),
-           std::to_string(pick.frame), m3_text(pick.predicted_gain_m3), m3_text(pick.real_gain_m3),
+           std::to_string(pick.frame), m3_text(pick.predicted_gain_m3),
+           m3_text(pick.expected_gain_m3), m3_text(pick.real_gain_m3),
            worth ? percent_text(worth->share_of_best) : kNone,
            worth ? factor_text(worth->times_mean) : kNone,
            worth ? std::to_string(worth->rank) : kNone}};
@@ -35,6 +36,7 @@ ReportTable pairs_table(const ReplayEvaluation& evaluation, std::size_t method) 
                      {"real gain", "mean frame"},
                      {"frame", "pick"},
                      {"predicted", "pick"},
+                     {"expected", "pick"},
                      {"real gain", "pick"},
                      {"of best", "pick"},
                      {"mean", "pick"},
@@ -46,16 +48,18 @@ ReportTable pairs_table(const ReplayEvaluation& evaluation, std::size_t method) 
 TableRow means_row(const ReplayEvaluation& evaluation, std::size_t method) {
   const std::string& name = evaluation.methods[method];
   const auto means = replay_means(evaluation, method);
-  if (!means) return {{name, kNone, kNone, kNone, kNone, kNone, kNone}};
-  return {{name, m3_text(means->predicted_gain_m3), m3_text(means->real_gain_m3),
-           percent_text(means->share_of_best), percent_text(means->min_share_of_best),
-           factor_text(means->times_mean), fmt::format("{:.1f}", means->rank)}};
+  if (!means) return {{name, kNone, kNone, kNone, kNone, kNone, kNone, kNone}};
+  return {{name, m3_text(means->predicted_gain_m3), m3_text(means->expected_gain_m3),
+           m3_text(means->real_gain_m3), percent_text(means->share_of_best),
+           percent_text(means->min_share_of_best), factor_text(means->times_mean),
+           fmt::format("{:.1f}", means->rank)}};
 }
 
 ReportTable means_table(const ReplayEvaluation& evaluation) {
   ReportTable table{fmt::format("Means over {} pairs of frames", evaluation.pairs.size()),
                     {{"method", "", true},
                      {"predicted", "gain, m³"},
+                     {"expected", "gain, m³"},
                      {"real", "gain, m³"},
                      {"mean", "of the best frame's"},
                      {"least", "of the best frame's"},
@@ -64,13 +68,19 @@ ReportTable means_table(const ReplayEvaluation& evaluation) {
   for (std::size_t i = 0; i < evaluation.methods.size(); ++i) {
     table.rows.push_back(means_row(evaluation, i));
   }
-  table.rows.push_back({{"any frame", kNone, kNone, percent_text(blind_share_of_best(evaluation)),
-                         kNone, factor_text(1), kNone}});
+  table.rows.push_back(
+      {{"any frame", kNone, kNone, kNone, percent_text(blind_share_of_best(evaluation)), kNone,
+        factor_text(1), kNone}});
   table.note =
       "Two frames of the recording are the cameras; a method picks one of all the others by its "
       "pose alone. Real gain: the shadow of the two that is none any more with that frame's depth "
-      "image. Predicted: the shadow that the voxel method says the pick sees. Any frame: the mean "
-      "of all of them.";
+      "image. Predicted: the shadow that the pick has in sight, by the voxel method; expected: "
+      "what "
+      "of that it should reveal. Any frame: the mean of all of them.";
+  if (const auto correlation = expected_rank_correlation(evaluation)) {
+    table.note += fmt::format(
+        " Rank correlation of expected and real gain over all frames: {:.3f}.", *correlation);
+  }
   return table;
 }
 

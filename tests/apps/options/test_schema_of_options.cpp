@@ -3,6 +3,7 @@
 #include "documents/schemas.hpp"
 #include "options/candidate_fields.hpp"
 #include "options/field_json.hpp"
+#include "options/sensor_fields.hpp"
 #include "options/view_options.hpp"
 #include "options/volume_fields.hpp"
 
@@ -33,9 +34,12 @@ void check_each(const std::string& folder, const FieldGroup& group) {
 TEST_CASE("the workcell's schema has the fields of the options, word for word") {
   VolumeOptions volume;
   check_same("/properties/volume/properties", properties_of(fields_of(volume)));
-  CHECK(properties_of(fields_of(volume)).size() == 4);
+  CHECK(properties_of(fields_of(volume)).size() == 6);
   ViewOptions views;
   check_same("/properties/plan/properties", properties_of(fields_of(views)));
+  StereoSensor sensor;
+  check_same("/properties/movable_camera/properties/depth/properties",
+             properties_of(fields_of(sensor)));
   double voxel_size_m = 0.009375;
   ViewConstraints constraints;
   const Json root =

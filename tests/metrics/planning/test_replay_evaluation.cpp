@@ -14,7 +14,8 @@ ReplayPair pair_with(const std::vector<double>& real_gains, std::vector<std::siz
     pair.views.push_back({.frame = int(10 * i),
                           .predicted_gain_m3 = 2 * real_gains[i],
                           .real_gain_m3 = real_gains[i],
-                          .scores = {1.0, 2.0}});
+                          .scores = {1.0, 2.0},
+                          .expected_gain_m3 = 1.5 * real_gains[i]});
   }
   return pair;
 }
@@ -82,13 +83,30 @@ TEST_CASE("tables: a line for each pair and method, and means with a blind choic
   CHECK(tables[1].title.find("mesh") != std::string::npos);
   CHECK(tables[0].rows.size() == 2);
   CHECK(tables[1].rows[0].cells == std::vector<std::string>{"3, 9", "8.00000", "10", "4.00000",
-                                                            "2.00000", "20", "4.00000", "2.00000",
-                                                            "50.0 %", "×1.00", "2"});
+                                                            "2.00000", "20", "4.00000", "3.00000",
+                                                            "2.00000", "50.0 %", "×1.00", "2"});
   REQUIRE(tables[2].rows.size() == 3);
-  CHECK(tables[2].rows[0].cells == std::vector<std::string>{"voxel", "4.50000", "2.25000",
-                                                            "100.0 %", "100.0 %", "×1.75", "1.0"});
-  CHECK(tables[2].rows[2].cells[3] == "58.3 %");
+  CHECK(tables[2].rows[0].cells == std::vector<std::string>{"voxel", "4.50000", "3.37500",
+                                                            "2.25000", "100.0 %", "100.0 %",
+                                                            "×1.75", "1.0"});
+  CHECK(tables[2].rows[2].cells[4] == "58.3 %");
+  CHECK(tables[2].note.find("Rank correlation") != std::string::npos);
   for (const ReportTable& table : tables) CHECK_FALSE(table_text(table).empty());
+}
+
+TEST_CASE("expected gains that order the frames as the real ones do correlate fully") {
+  CHECK(expected_rank_correlation(two_pairs()).value() == doctest::Approx(1));
+  ReplayEvaluation turned = two_pairs();
+  for (ReplayPair& pair : turned.pairs) {
+    for (ReplayView& view : pair.views) view.expected_gain_m3 = 10 - view.real_gain_m3;
+  }
+  CHECK(expected_rank_correlation(turned).value() == doctest::Approx(-1));
+  // Ranks 2, 0, 1 against 0, 1, 2.
+  ReplayEvaluation one{{"voxel"}, {pair_with({1, 2, 3}, {0})}};
+  for (std::size_t i = 0; i < 3; ++i) one.pairs[0].views[i].expected_gain_m3 = double((i + 2) % 3);
+  CHECK(expected_rank_correlation(one).value() == doctest::Approx(-0.5));
+  for (ReplayView& view : one.pairs[0].views) view.expected_gain_m3 = 1;
+  CHECK_FALSE(expected_rank_correlation(one));
 }
 
 }  // namespace vantage::test

@@ -65,12 +65,13 @@ TEST_CASE("methods by their names, with the power of the depth in it") {
   for (const char* name :
        {"", "shadowD", "shadowDx", "shadowD17", "shadowD-1", "meshD", "lightD3", "Voxel"}) {
     CAPTURE(name);
-    CHECK_THROWS_WITH_AS(named_method(name),
-                         (std::string("--methods: found '") + name +
-                          "'; expected one of: voxel, shadow, mesh, light; shadowD or meshD and a "
-                          "number from 0 to 16 is that method with that power of the depth")
-                             .c_str(),
-                         Error);
+    CHECK_THROWS_WITH_AS(
+        named_method(name),
+        (std::string("--methods: found '") + name +
+         "'; expected one of: expected, voxel, shadow, mesh, light; shadowD or meshD and a "
+         "number from 0 to 16 is that method with that power of the depth")
+            .c_str(),
+        Error);
   }
 }
 

@@ -132,6 +132,8 @@ TEST_CASE("a method picks what a plan picks that has the frames' poses as its on
       list.poses.push_back(input.world.cameras[frame_index(view.frame)].camera.T_world_cam());
     }
     request.candidates = list;
+    request.value = ViewValue::bound;
+    request.volume.filter = FalseShadowFilter::off;
     request.servo.iterations = 0;
     request.polish.views = 0;
     const WorldModel two = world_of(input, {pair.frames[0], pair.frames[1]});
@@ -158,6 +160,7 @@ TEST_CASE("a recorded frame was possible, wherever a plan would say that no came
   const ReplayView& view = pair->views.at(0);
 
   PlanRequest request = input.request;
+  request.volume.filter = FalseShadowFilter::off;
   request.candidates = ViewList{{input.world.cameras[2].camera.T_world_cam()}};
   const Plan plan = plan_next_view(world_of(input, {0, 10}), request);
   CHECK(plan.candidates.at(0).rejected == InvalidReason::inside_shadow);

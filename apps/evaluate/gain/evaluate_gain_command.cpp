@@ -1,0 +1,73 @@
+#include <iostream>
+#include <memory>
+
+#include "cli/command.hpp"
+#include "cli/progress_line.hpp"
+#include "cli/shared_options.hpp"
+#include "cli/signal_handler.hpp"
+#include "cli/workers.hpp"
+#include "evaluate/gain/true_gain.hpp"
+
+namespace vantage {
+namespace {
+
+constexpr const char* kGainExamples =
+    "Examples:\n"
+    "  vantage evaluate gain data/workcell.yaml out/plan.json\n"
+    "  vantage evaluate gain data/workcell.yaml out/plan.json --oracle none --json\n"
+    "  vantage evaluate gain data/workcell.yaml out/plan.json --oracle full --seed 7";
+
+struct GainCommandOptions {
+  std::filesystem::path workcell, plan;
+  std::string oracle = "plan";
+  std::uint64_t seed = TrueGainOptions().seed;
+  bool json = false;
+  int threads = 0;
+
+  TrueGainOptions chosen() const {
+    const GainOracle kind = oracle == "none"   ? GainOracle::none
+                            : oracle == "full" ? GainOracle::full
+                                               : GainOracle::plan;
+    return {kind, seed};
+  }
+};
+
+ExitCode evaluate_gain(const GainCommandOptions& options) {
+  const StopToken stop;
+  const SignalHandler interrupt({stop});
+  const auto gain = Workers(options.threads).execute([&] {
+    const ProgressLine progress("measuring", stop);
+    return true_gain(options.workcell, options.plan, options.chosen(), stop);
+  });
+  if (stop.stop_requested()) return ExitCode::cancelled;
+  std::cout << (options.json ? gain.dump(1) + "\n" : summary_of_true_gain(gain)) << std::flush;
+  return ExitCode::ok;
+}
+
+}  // namespace
+
+void add_evaluate_gain(CLI::App& evaluate_verb, Action& action) {
+  CLI::App* verb = evaluate_verb.add_subcommand(
+      "gain",
+      "What a plan's views really turn from shadow to free or occupied in a simulated cell, beside "
+      "what was promised and expected");
+  const auto options = std::make_shared<GainCommandOptions>();
+  verb->add_option("workcell", options->workcell,
+                   "The simulated dataset's workcell.yaml: what truly stands there")
+      ->required();
+  verb->add_option("plan", options->plan, "plan.json")->required();
+  verb->add_option("--oracle", options->oracle,
+                   "Views among which the best one is looked for; plan: the plan's own candidates; "
+                   "full: the full set of 34,225 as well")
+      ->check(CLI::IsMember({"none", "plan", "full"}))
+      ->capture_default_str();
+  verb->add_option("--seed", options->seed, "Random seed of the movable camera's noise")
+      ->capture_default_str();
+  add_json_flag(*verb, options->json, "JSON");
+  add_threads_option(*verb, options->threads);
+  verb->footer(kGainExamples);
+  verb->parse_complete_callback(
+      [&action, options] { action = [=] { return evaluate_gain(*options); }; });
+}
+
+}  // namespace vantage
