@@ -23,6 +23,13 @@
 namespace vantage {
 namespace {
 
+constexpr const char* kPlanningExamples =
+    "Examples:\n"
+    "  vantage evaluate planning assets/workcells/wall.yaml:front,top -o out\n"
+    "  vantage evaluate planning assets/workcells/two_pillars.yaml+noisy --methods "
+    "voxel,expected,mesh\n"
+    "  vantage evaluate planning assets/workcells/corridor.yaml --candidates production --json";
+
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
@@ -174,6 +181,7 @@ void add_evaluate_planning(CLI::App& evaluate_verb, Action& action) {
       "are by the voxel method and in truth, and how long it takes");
   const auto options = std::make_shared<PlanningCommandOptions>();
   options->add_to(*verb);
+  verb->footer(kPlanningExamples);
   verb->parse_complete_callback(
       [&action, options] { action = [=] { return evaluate(*options); }; });
 }

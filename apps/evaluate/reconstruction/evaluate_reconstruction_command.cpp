@@ -22,6 +22,14 @@
 namespace vantage {
 namespace {
 
+constexpr const char* kReconstructionExamples =
+    "Examples:\n"
+    "  vantage evaluate reconstruction castle --workcell castle/workcell.yaml -o out\n"
+    "  vantage evaluate reconstruction castle --workcell castle/workcell.yaml --sizes 2-4 "
+    "--methods pnp\n"
+    "  vantage evaluate reconstruction castle --workcell castle/workcell.yaml --noise-px 0.5 "
+    "--trials 20";
+
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
@@ -181,6 +189,7 @@ void add_evaluate_reconstruction(CLI::App& evaluate_verb, Action& action) {
   add_disturbance_options(*verb, arguments->settings);
   add_json_flag(*verb, arguments->json, "reconstruction.json");
   add_threads_option(*verb, arguments->threads);
+  verb->footer(kReconstructionExamples);
   verb->parse_complete_callback(
       [&action, arguments] { action = [=] { return evaluate(*arguments); }; });
 }

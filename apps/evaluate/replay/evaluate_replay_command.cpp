@@ -21,6 +21,12 @@
 namespace vantage {
 namespace {
 
+constexpr const char* kReplayExamples =
+    "Examples:\n"
+    "  vantage evaluate replay kitchen --work-area -0.7 -0.75 0 1.1 0.65 0.35 --voxel-size 0.02\n"
+    "  vantage evaluate replay kitchen --workcell cell.yaml --pairs 50 -o out\n"
+    "  vantage evaluate replay kitchen --workcell cell.yaml --methods expected,mesh --json";
+
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
@@ -129,6 +135,7 @@ void add_evaluate_replay(CLI::App& evaluate_verb, Action& action) {
   add_output_option(*verb, arguments->folder, "replay.json");
   add_json_flag(*verb, arguments->json, "replay.json");
   add_threads_option(*verb, arguments->threads);
+  verb->footer(kReplayExamples);
   verb->parse_complete_callback(
       [&action, arguments] { action = [=] { return evaluate(*arguments); }; });
 }

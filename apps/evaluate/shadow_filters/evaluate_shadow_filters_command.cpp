@@ -14,6 +14,12 @@
 namespace vantage {
 namespace {
 
+constexpr const char* kFilterExamples =
+    "Examples:\n"
+    "  vantage evaluate shadow-filters assets/workcells/wall.yaml:side\n"
+    "  vantage evaluate shadow-filters assets/workcells/bin.yaml --classified --openings 0,1,2\n"
+    "  vantage evaluate shadow-filters assets/workcells/duck.yaml+ideal --offsets 0,3 --json";
+
 struct ShadowFilterCommandOptions {
   std::vector<std::string> scenes;
   std::string holes = "fill";
@@ -134,6 +140,7 @@ void add_evaluate_shadow_filters(CLI::App& evaluate_verb, Action& action) {
       ->capture_default_str();
   add_json_flag(*verb, options->json, "JSON");
   add_threads_option(*verb, options->threads);
+  verb->footer(kFilterExamples);
   verb->parse_complete_callback(
       [&action, options] { action = [=] { return evaluate(*options); }; });
 }
