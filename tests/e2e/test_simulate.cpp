@@ -92,6 +92,16 @@ TEST_CASE("a simulated dataset is planned with its own workcell, and the promise
   CHECK(gained >= 0.85 * gain["best_true_gain_m3"].get<double>());
   CHECK(gain["true_hidden_seen_m3"].get<double>() <= gain["true_hidden_m3"].get<double>());
   CHECK(gain["gain_of_hidden"].get<double>() > 0.8);
+
+  const auto finer =
+      run_vantage("evaluate gain" + quoted(data / "workcell.yaml") + quoted(out / "plan.json") +
+                  " --voxel-size 0.005 --oracle none --json");
+  REQUIRE(finer.exit_code == 0);
+  CHECK(finer.json()["true_gain_m3"] == gain["true_gain_m3"]);
+  CHECK(finer.json()["best_true_gain_m3"].is_null());
+  CHECK(finer.json()["true_hidden_m3"] != gain["true_hidden_m3"]);
+  CHECK(finer.json()["true_hidden_m3"].get<double>() ==
+        doctest::Approx(gain["true_hidden_m3"].get<double>()).epsilon(0.2));
 }
 
 TEST_CASE("all views of a plan are judged in their order, by its own sensor and filter") {

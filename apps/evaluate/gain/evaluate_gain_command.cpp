@@ -2,6 +2,7 @@
 #include <memory>
 
 #include "cli/command.hpp"
+#include "cli/number_checks.hpp"
 #include "cli/progress_line.hpp"
 #include "cli/shared_options.hpp"
 #include "cli/signal_handler.hpp"
@@ -21,6 +22,7 @@ struct GainCommandOptions {
   std::filesystem::path workcell, plan;
   std::string oracle = "plan";
   std::uint64_t seed = TrueGainOptions().seed;
+  std::optional<double> voxel_size_m;
   bool json = false;
   int threads = 0;
 
@@ -28,7 +30,7 @@ struct GainCommandOptions {
     const GainOracle kind = oracle == "none"   ? GainOracle::none
                             : oracle == "full" ? GainOracle::full
                                                : GainOracle::plan;
-    return {kind, seed};
+    return {kind, seed, voxel_size_m};
   }
 };
 
@@ -63,6 +65,11 @@ void add_evaluate_gain(CLI::App& evaluate_verb, Action& action) {
       ->capture_default_str();
   verb->add_option("--seed", options->seed, "Random seed of the movable camera's noise")
       ->capture_default_str();
+  verb->add_option(
+          "--voxel-size", options->voxel_size_m,
+          "Edge of the voxels in which the truly hidden volume is counted, metres (default: "
+          "the plan's)")
+      ->check(positive_number());
   add_json_flag(*verb, options->json, "JSON");
   add_threads_option(*verb, options->threads);
   verb->footer(kGainExamples);

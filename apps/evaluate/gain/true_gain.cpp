@@ -87,7 +87,9 @@ Json true_gain(const std::filesystem::path& workcell_file, const std::filesystem
   json["gain_of_promised"] = share(first["true_gain_m3"], first["promised_m3"]);
   json["gain_of_expected"] =
       first["expected_m3"].is_null() ? Json() : share(first["true_gain_m3"], first["expected_m3"]);
-  add_hidden(plan, cell.scene, camera.moved_to(plan.views.front().T_world_cam), geometry, json);
+  const GridGeometry fine = GridGeometry::covering(
+      request.work_area, options.voxel_size_m.value_or(request.voxel_size_m));
+  add_hidden(plan, cell.scene, camera.moved_to(plan.views.front().T_world_cam), fine, json);
   return json;
 }
 

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 
 #include "vantage/raycore/stop_token.hpp"
@@ -19,6 +20,8 @@ enum class GainOracle {
 struct TrueGainOptions {
   GainOracle oracle = GainOracle::plan;
   std::uint64_t seed = 1000;  ///< of the movable camera's noise
+  /// Of the truth, in which hidden volume is counted; none: the plan's.
+  std::optional<double> voxel_size_m = {};
 };
 
 /// Holds a plan against the truth of the simulated cell that it was made for: its views are taken

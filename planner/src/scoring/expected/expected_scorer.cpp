@@ -1,5 +1,7 @@
 #include "vantage/planner/advanced/expected_scorer.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -65,7 +67,8 @@ Score voxels_needed(Score needed) {
 void ExpectedGainOptions::check() const {
   sensor.check("movable camera's sensor");
   if (std::isfinite(unknown_depth) && unknown_depth >= 0) return;
-  throw bad_input("unknown_depth", "expected a finite length, 0 or above");
+  throw bad_input("unknown_depth",
+                  fmt::format("is {}; expected a finite number, 0 or above", unknown_depth));
 }
 
 struct ExpectedScorer::Impl {
