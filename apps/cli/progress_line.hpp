@@ -7,7 +7,8 @@
 
 namespace vantage {
 
-/// Shows a token's progress on stderr while it lives, if stderr is a terminal.
+/// Shows a token's progress, and how long the rest will take, on stderr while it lives, if stderr
+/// is a terminal.
 class ProgressLine {
  public:
   ProgressLine(std::string what, const StopToken& token);

@@ -104,7 +104,7 @@ TEST_CASE("evaluate planning refuses what it cannot evaluate, and writes nothing
   refused(quoted_workcell("wall") + " --servo 101", 2, "--servo");
 }
 
-TEST_CASE("Ctrl-C ends an evaluation of planning with 130, and writes nothing") {
+TEST_CASE("Ctrl-C before the first scene is evaluated ends it with 130, and writes nothing") {
   const test::TemporaryFolder folder;
   const auto result = run_vantage("evaluate planning" + quoted_workcell("wall", ":front") +
                                       " --repeat 1000 -o" + quoted(folder / "out"),

@@ -38,7 +38,7 @@ TEST_CASE("NumPy and Debian's OpenVDB read the volumes of plan.json from the fil
       folder.write("cell.yaml",
                    "work_area: {min_m: [-0.203, -0.1, 0.02], max_m: [0.207, 0.31, 0.2232]}\n"
                    "voxel_size_m: 0.007\n"
-                   "volume: {occluders: voxels}\n"
+                   "volume: {occluders: voxels, filter: off}\n"
                    "known_objects:\n"
                    "  - name: box\n"
                    "    box: {min_m: [-0.08, 0, 0], max_m: [0.08, 0.06, 0.15]}\n");

@@ -76,6 +76,7 @@ PlanningResult evaluate_cells(const std::vector<PlanningCell>& cells,
   result.evaluation.polished_views = settings.polish.views;
   for (std::size_t i = 0; i < cells.size() && !stop.stop_requested(); ++i) {
     EvaluatedScene one = evaluate_planning(cells[i], settings, stop);
+    if (stop.stop_requested()) break;  // those before it are complete
     for (PagePicture& picture : one.pictures) {
       picture.scene = i;
       result.pictures.push_back(std::move(picture));
@@ -165,11 +166,13 @@ ExitCode evaluate(const PlanningCommandOptions& options) {
     const ProgressLine progress("evaluating", stop);
     return evaluate_cells(cells, settings, stop);
   });
-  if (stop.stop_requested()) return ExitCode::cancelled;
-  const Json json = json_of(result, options, settings);
+  const ExitCode exit_code = stop.stop_requested() ? ExitCode::cancelled : ExitCode::ok;
+  if (result.evaluation.scenes.empty()) return exit_code;
+  Json json = json_of(result, options, settings);
+  json["partial"] = stop.stop_requested();
   if (!options.folder.empty()) write(options, settings, result, json);
   std::cout << (options.json ? json.dump(1) + "\n" : text_of(result.evaluation)) << std::flush;
-  return ExitCode::ok;
+  return exit_code;
 }
 
 }  // namespace

@@ -88,8 +88,10 @@ ExitCode evaluate(const ReplayCommandOptions& arguments) {
     const ProgressLine progress("replaying", stop);
     return evaluate_replay(input, settings, stop);
   });
-  if (stop.stop_requested()) return ExitCode::cancelled;
+  const ExitCode exit_code = stop.stop_requested() ? ExitCode::cancelled : ExitCode::ok;
+  if (evaluation.pairs.empty()) return exit_code;
   Json json = replay_to_json(evaluation);
+  json["partial"] = stop.stop_requested();
   json["config"] = config_json(arguments, input);
   json["inputs"] = inputs_json(input.record.inputs);
   if (!arguments.folder.empty()) {
@@ -98,7 +100,7 @@ ExitCode evaluate(const ReplayCommandOptions& arguments) {
     spdlog::info("wrote {}", (arguments.folder / "replay.json").string());
   }
   std::cout << (arguments.json ? json.dump(1) + "\n" : text_of(evaluation)) << std::flush;
-  return ExitCode::ok;
+  return exit_code;
 }
 
 void add_replay_options(CLI::App& verb, ReplayCommandOptions& arguments) {

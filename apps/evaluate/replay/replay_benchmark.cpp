@@ -47,7 +47,8 @@ class Replay {
     stop_.expect(pairs.size() * (frames_.size() - 2));
     for (const FramePair& pair : pairs) {
       if (stop_.stop_requested()) break;
-      evaluation.pairs.push_back(run_pair({usable[pair[0]], usable[pair[1]]}));
+      ReplayPair replayed = run_pair({usable[pair[0]], usable[pair[1]]});
+      if (!stop_.stop_requested()) evaluation.pairs.push_back(std::move(replayed));
     }
     return evaluation;
   }

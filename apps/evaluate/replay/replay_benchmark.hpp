@@ -26,8 +26,8 @@ struct ReplayBenchmarkOptions {
 /// candidate with the highest score, among equals the first. Real gain is the shadow of the two
 /// frames that is none any more in a classification of the three.
 ///
-/// Runs in the caller's task arena; the result is the same at any number of threads. Without sense
-/// if `stop` was cancelled.
+/// Runs in the caller's task arena; the result is the same at any number of threads. If `stop`
+/// asked to stop, it has the pairs that were finished.
 /// @param input its world's cameras are the frames; of its request the work area, the voxel size
 /// and the volume options count.
 /// @throws Error bad_input for a frame without depth, fewer than three frames, and fewer than two
