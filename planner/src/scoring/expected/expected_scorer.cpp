@@ -8,6 +8,7 @@
 
 #include "scoring/expected/reading_rays.hpp"
 #include "scoring/expected/unseen_model.hpp"
+#include "scoring/voxel/shadow_points.hpp"
 #include "vantage/planner/advanced/visible_points.hpp"
 #include "vantage/raycore/advanced/scene_builder.hpp"
 #include "vantage/raycore/error.hpp"
@@ -83,26 +84,14 @@ struct ExpectedScorer::Impl {
 
 namespace {
 
-Points points_of(PointsView view) {
-  Points points(view.size);
-  std::copy_n(view.x, view.size, points.x.begin());
-  std::copy_n(view.y, view.size, points.y.begin());
-  std::copy_n(view.z, view.size, points.z.begin());
-  return points;
-}
-
-std::shared_ptr<const Scene> occluders_of(const PlanningScene& scene) {
-  const auto owner = std::make_shared<const PlanningScene>(scene);
-  return {owner, &owner->occluders()};
-}
-
 /// Surfaces are as thick as they are measured: what is within half of that behind the front of one
 /// is measured as part of it. Measured voxels reach as far to the front again.
 std::vector<Obstacles> obstacles_of(const PlanningScene& scene, const WorldModel& world,
                                     const VolumeOptions& volume, const UnseenModel& model) {
-  if (model.ideal) return {{occluders_of(scene)}};
+  if (model.ideal) return {{planner::detail::shared_occluders(scene)}};
   const SurfaceBand half{0.5 * model.voxel_m, model.half_band_1m};
-  if (volume.occluders == OccluderMode::voxels) return {{occluders_of(scene), half}};
+  if (volume.occluders == OccluderMode::voxels)
+    return {{planner::detail::shared_occluders(scene), half}};
   SceneBuilder measured;
   add_occluders({}, scene.grid(), volume.occluders, measured);
   const SurfaceBand all{2 * model.voxel_m, 2 * model.half_band_1m};
@@ -115,7 +104,7 @@ ExpectedScorer::ExpectedScorer(const PlanningScene& scene, const WorldModel& wor
                                const VolumeOptions& volume, const ExpectedGainOptions& options) {
   options.check();
   UnseenModel model(scene, world, volume, options);
-  VisiblePoints points(points_of(scene.shadow_centres()),
+  VisiblePoints points(planner::detail::shadow_points(scene),
                        obstacles_of(scene, world, volume, model));
   impl_ = std::make_unique<const Impl>(
       Impl{scene.grid().geometry().voxel_volume_m3(), std::move(model), std::move(points)});

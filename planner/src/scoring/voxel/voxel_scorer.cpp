@@ -1,29 +1,12 @@
 #include "vantage/planner/advanced/voxel_scorer.hpp"
 
-#include <algorithm>
+#include "scoring/voxel/shadow_points.hpp"
 
 namespace vantage {
-namespace {
-
-Points points_of(PointsView view) {
-  Points points(view.size);
-  std::copy_n(view.x, view.size, points.x.begin());
-  std::copy_n(view.y, view.size, points.y.begin());
-  std::copy_n(view.z, view.size, points.z.begin());
-  return points;
-}
-
-/// The scene's occluders, which live as long as the result does.
-std::shared_ptr<const Scene> occluders_of(const PlanningScene& scene) {
-  const auto owner = std::make_shared<const PlanningScene>(scene);
-  return {owner, &owner->occluders()};
-}
-
-}  // namespace
 
 VoxelScorer::VoxelScorer(const PlanningScene& scene)
     : voxel_volume_m3_(scene.grid().geometry().voxel_volume_m3()),
-      points_(points_of(scene.shadow_centres()), occluders_of(scene)) {}
+      points_(planner::detail::shadow_points(scene), planner::detail::shared_occluders(scene)) {}
 
 Score VoxelScorer::upper_bound(const PinholeCamera& view) const {
   return points_.upper_bound(view);
