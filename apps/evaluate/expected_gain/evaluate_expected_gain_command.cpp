@@ -64,7 +64,7 @@ Json to_json(const GainSummary& sum) {
           {"share_within", sum.within},
           {"share_covered", sum.covered},
           {"mean_share_of_best", sum.share_of_best},
-          {"least_share_of_best", sum.min_share_of_best}};
+          {"min_share_of_best", sum.min_share_of_best}};
 }
 
 Json json_of(const std::vector<CellGains>& cells) {

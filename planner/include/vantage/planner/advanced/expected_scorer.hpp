@@ -37,6 +37,9 @@ namespace vantage {
 /// above 1: 255 times the number of voxels in sight is a certified upper bound, and a view in which
 /// they are too few is never looked at closer. With an ideal sensor where nothing unknown was
 /// measured, the expected gain is the bound.
+///
+/// Unlike other scorers it may split the rays of one view over the caller's task arena; scores are
+/// the same at any number of threads.
 class VANTAGE_API ExpectedScorer final : public ViewScorer {
  public:
   /// @param scene made from `world`.
