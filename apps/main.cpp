@@ -53,6 +53,7 @@ int main(int argc, char** argv) {
   add_plan_command(app, action);
   add_demo_command(app, action);
   add_reconstruct_command(app, action);
+  add_validate_command(app, action);
   add_simulate_command(app, action);
   add_render_command(app, action);
   add_evaluate_command(app, action);

@@ -12,6 +12,7 @@ using Action = std::function<ExitCode()>;
 
 void add_plan_command(CLI::App& app, Action& action);
 void add_demo_command(CLI::App& app, Action& action);
+void add_validate_command(CLI::App& app, Action& action);
 void add_simulate_command(CLI::App& app, Action& action);
 void add_reconstruct_command(CLI::App& app, Action& action);
 void add_render_command(CLI::App& app, Action& action);

@@ -5,6 +5,7 @@
 #include "options/field_json.hpp"
 #include "options/volume_fields.hpp"
 #include "vantage/raycore/error.hpp"
+#include "vantage/volume/plausibility.hpp"
 #include "workcell/workcell.hpp"
 
 namespace vantage {
@@ -54,6 +55,10 @@ PlanInput load_plan_input(const PlanOptions& options, const StopToken& stop) {
   const Workcell workcell = workcell_of(options);
   PlanWorld plan =
       load_plan_world(options.dataset, options.images, workcell, options.objects, stop);
+  for (std::string& finding :
+       implausibilities(plan.world, workcell.work_area, workcell.voxel_size_m)) {
+    plan.warnings.push_back(std::move(finding));
+  }
   PlanInput input{
       std::move(plan.world), plan_request(workcell, plan.first_camera), {}, plan.warnings};
   input.mesh = workcell.plan.mesh_method();
