@@ -46,8 +46,18 @@ void use_reconstruction(const BopScene& scene, const Workcell& workcell,
   std::vector<std::string> taken;
   for (const PlacedObject& object : workcell.static_structures) taken.push_back(object.name);
   plan.world.objects = known_objects(found.result, taken);
+  for (std::size_t i = 0; i < plan.world.objects.size(); ++i) {
+    const std::string& doubt = found.result.objects[i].warning;
+    if (!doubt.empty()) {
+      plan.warnings.push_back(fmt::format("{}: {}", plan.world.objects[i].name, doubt));
+    }
+  }
   for (std::size_t i = 0; i < scene.images.size(); ++i) {
     const auto& pose = found.observed.views[i].T_world_cam;
+    const std::string& doubt = found.observed.locations[i].warning;
+    if (!doubt.empty()) {
+      plan.warnings.push_back(fmt::format("image {}: {}", scene.images[i].id, doubt));
+    }
     if (pose) {
       plan.world.cameras.push_back(observer(scene.images[i], *pose));
     } else {

@@ -42,12 +42,20 @@ void write_overlays(const BopScene& scene, const SceneReconstruction& reconstruc
   }
 }
 
-void warn_of(const BopScene& scene, const SceneReconstruction& reconstruction) {
+void warn_of(const BopScene& scene, const SceneReconstruction& reconstruction,
+             const std::vector<KnownObject>& objects) {
   for (std::size_t i = 0; i < scene.images.size(); ++i) {
     const CameraLocation& location = reconstruction.observed.locations[i];
     if (!location.reason.empty()) {
       spdlog::warn("skipping image {}: {}", scene.images[i].id, location.reason);
     }
+    if (!location.warning.empty()) {
+      spdlog::warn("image {}: {}", scene.images[i].id, location.warning);
+    }
+  }
+  for (std::size_t i = 0; i < objects.size(); ++i) {
+    const std::string& warning = reconstruction.result.objects[i].warning;
+    if (!warning.empty()) spdlog::warn("{}: {}", objects[i].name, warning);
   }
 }
 
@@ -79,8 +87,8 @@ ExitCode reconstruct_command(const ReconstructCommand& command) {
     return reconstruct_scene(scene, workcell, options, stop);
   });
   if (stop.stop_requested()) return ExitCode::cancelled;
-  warn_of(scene, reconstruction);
   const std::vector<KnownObject> objects = known_objects(reconstruction.result);
+  warn_of(scene, reconstruction, objects);
   WorldRecord record = record_of(command, scene, workcell, reconstruction);
   record.load_s = load_s;
   record.total_s = seconds_since(start);

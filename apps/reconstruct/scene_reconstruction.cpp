@@ -7,6 +7,8 @@
 #include <chrono>
 
 #include "vantage/raycore/error.hpp"
+#include "vantage/raycore/solids.hpp"
+#include "vantage/reconstruction/check_scene.hpp"
 
 namespace vantage {
 namespace {
@@ -22,6 +24,37 @@ void check_knowledge(const Workcell& workcell) {
                         "could be recognised; name its file in the workcell"
                       : "no type of the knowledge base has features, by which objects "
                         "could be recognised");
+}
+
+/// The plate of the board, as a thing that hides what is behind it.
+KnownObject plate_of(const Board& board) {
+  const Eigen::Vector3d size(board.size_m.x(), board.size_m.y(), board.thickness_m);
+  return {"the board", std::make_shared<TriangleMesh>(box_solid(size)),
+          Pose::from_translation({0, 0, -0.5 * board.thickness_m})};
+}
+
+/// The corners of the board's markers that each camera was located by.
+std::vector<std::vector<Eigen::Vector3d>> seen_corners(const Board& board,
+                                                       const ObservedScene& observed) {
+  std::vector<std::vector<Eigen::Vector3d>> seen(observed.views.size());
+  for (std::size_t v = 0; v < observed.views.size(); ++v) {
+    for (const std::size_t i : observed.locations[v].inliers) {
+      for (const ObjectFeature& feature : board.features()) {
+        if (feature.key != observed.board[v][i].key) continue;
+        const auto points = feature.points();
+        seen[v].insert(seen[v].end(), points.begin(), points.end());
+      }
+    }
+  }
+  return seen;
+}
+
+SceneKnowledge knowledge_of(const Workcell& workcell, const ObservedScene& observed) {
+  SceneKnowledge knowledge{known(workcell.static_structures)};
+  if (!workcell.board) return knowledge;
+  knowledge.solids.push_back(plate_of(*workcell.board));
+  knowledge.seen_points = seen_corners(*workcell.board, observed);
+  return knowledge;
 }
 
 }  // namespace
@@ -74,6 +107,8 @@ SceneReconstruction reconstruct_scene(const BopScene& scene, const Workcell& wor
   const auto start = std::chrono::steady_clock::now();
   all.result =
       reconstruct(settings.method, all.observed.views, *workcell.knowledge, settings.options, stop);
+  reject_contradicted(all.observed.views, knowledge_of(workcell, all.observed), all.result);
+  warn_of_motion(all.observed.views, *workcell.knowledge, settings.options, stop, all.result);
   all.reconstruct_s =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return all;

@@ -37,7 +37,9 @@ Json camera_json(const BopImage& image, const CameraView& view, const CameraLoca
             {"reason", location.reason.empty() ? Json() : Json(location.reason)},
             {"covariance", by_board && location.pose ? to_json(view.covariance) : Json()},
             {"rms_px", location.pose ? Json(location.pose->rms_px) : Json()},
+            {"warning", location.warning.empty() ? Json() : Json(location.warning)},
             {"board_markers", location.inliers.size()},
+            {"board_markers_seen", location.markers_seen},
             {"wrong_board_markers", location.outliers.size()},
             {"alternatives", Json::array()},
             {"intrinsics",
@@ -68,6 +70,7 @@ Json object_json(const BopScene& scene, const SceneReconstruction& reconstructio
             {"covariance", object.covariance ? to_json(*object.covariance) : Json()},
             {"probability", object.probability},
             {"rms_px", object.rms_px},
+            {"warning", object.warning.empty() ? Json() : Json(object.warning)},
             {"support", Json::array()},
             {"alternatives", Json::array()}};
   for (const Support& support : object.support) {
@@ -121,7 +124,11 @@ std::string camera_line(const Json& camera) {
   std::string line = fmt::format("  image {:<4} at {}", camera["image"].get<int>(),
                                  point_text(camera["T_world_cam"]["translation_m"]));
   if (camera["located_by"] == "dataset") return line + ", as the dataset has it\n";
-  return line + fmt::format(", by {} markers, {:.3f} px rms\n", camera["board_markers"].get<int>(),
+  const int agreeing = camera["board_markers"].get<int>();
+  const int seen = camera["board_markers_seen"].get<int>();
+  const std::string markers =
+      agreeing == seen ? std::to_string(seen) : fmt::format("{} of {}", agreeing, seen);
+  return line + fmt::format(", by {} markers, {:.3f} px rms\n", markers,
                             camera["rms_px"].get<double>());
 }
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Geometry>
 #include <cmath>
 
 #include "vantage/raycore/error.hpp"
@@ -70,6 +71,26 @@ std::string feature_place(const ObjectType& type, std::size_t index) {
   return fmt::format("{}.features[{}]", place_of(type), index);
 }
 
+/// A marker is printed on a face of the object: it cannot stick out.
+void check_fits(const ObjectType& type, const Marker& marker, const std::string& place) {
+  constexpr double kRoom_m = 0.001, kRoom = 0.02;  // a sticker, a rounded mesh
+  Eigen::AlignedBox3d bounds;
+  for (const Eigen::Vector3f& vertex : type.mesh->vertices()) bounds.extend(vertex.cast<double>());
+  if (bounds.isEmpty() || !marker.T_object_marker.translation().allFinite()) return;
+  const double room = kRoom_m + kRoom * bounds.diagonal().norm();
+  const Eigen::AlignedBox3d wide(bounds.min() - Eigen::Vector3d::Constant(room),
+                                 bounds.max() + Eigen::Vector3d::Constant(room));
+  for (const Eigen::Vector3d& corner : marker.corners()) {
+    if (wide.contains(corner)) continue;
+    const Eigen::Vector3d size = bounds.sizes();
+    throw bad_input(place,
+                    fmt::format("the marker {} of {:g} m sticks out of its object, which is {:.4g} "
+                                "x {:.4g} x {:.4g} m: check size_m, the marker's place, and the "
+                                "shape's size",
+                                marker.id, marker.size_m, size.x(), size.y(), size.z()));
+  }
+}
+
 void check_feature(const ObjectType& type, std::size_t index) {
   const ObjectFeature& feature = type.features[index];
   const std::string place = feature_place(type, index);
@@ -78,6 +99,7 @@ void check_feature(const ObjectType& type, std::size_t index) {
                                        feature.key.type, feature.key.value));
   }
   std::visit(GeometryCheck{place}, feature.geometry);
+  if (const auto* marker = std::get_if<Marker>(&feature.geometry)) check_fits(type, *marker, place);
   for (std::size_t other = 0; other < index; ++other) {
     if (!same(type.features[other], feature)) continue;
     throw bad_input(place, fmt::format("{} {} is features[{}] once more, in the same place; remove "

@@ -1,11 +1,16 @@
 #include "vantage/reconstruction/locate_camera.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <set>
 
 #include "locate/board_pose.hpp"
+#include "locate/explain_contradiction.hpp"
 #include "locate/match_board.hpp"
+#include "locate/residual_cause.hpp"
+#include "pose/pose_manifold.hpp"
 #include "pose/solve_pnp.hpp"
 
 namespace vantage {
@@ -24,8 +29,8 @@ std::string disagreement(const SeenBoard& seen, const BoardFit* best, double inl
   }
   return fmt::format(
       "only {} of the {} markers of the board that are seen agree on a pose within {:g} px, "
-      "expected two at least; check the board's sizes and positions in the workcell and "
-      "the camera's calibration",
+      "expected two at least, and twice as many as contradict them; check the board's sizes and "
+      "positions in the workcell and the camera's calibration",
       best->pairs.size(), seen.sound, inlier_px);
 }
 
@@ -81,7 +86,8 @@ std::string flip_reason(const LocatedPose& best, const LocatedPose& other, std::
   return fmt::format(
       "the pose is ambiguous: two poses that differ by {:.3g} m and {:.3g}° explain the {} "
       "{} of the board nearly equally well, chi-square {:.4g} and {:.4g}, a difference of "
-      "{:.3g} in units of the residuals' own variance, expected {:g}; move the camera closer "
+      "{:.3g} in units of the residuals' own variance where prints are not perfectly flat, "
+      "expected {:g}; move the camera closer "
       "or aside, or add markers that do not lie in the same plane",
       (best.T_world_cam.translation() - other.T_world_cam.translation()).norm(),
       turn * 180 / EIGEN_PI, markers, markers == 1 ? "marker" : "markers", best.chi_square,
@@ -118,8 +124,10 @@ void decide(std::span<const BoardPair> all, std::span<const BoardFit> fits,
   BoardFit other = best;
   other.fit = rivals.front();
   if (other.fit.chi_square < best.fit.chi_square) std::swap(best, other);
-  const double excess = reconstruction::detail::excess_of(best.fit.chi_square, best.points(all));
-  const double evidence = (other.fit.chi_square - best.fit.chi_square) / excess;
+  const double chi_square = reconstruction::detail::chi_square_if_bent(all, best);
+  const double excess = reconstruction::detail::excess_of(chi_square, best.points(all));
+  const double evidence =
+      (reconstruction::detail::chi_square_if_bent(all, other) - chi_square) / excess;
   if (evidence >= min_evidence) {
     location.pose = located(all, best);
     return;
@@ -127,6 +135,75 @@ void decide(std::span<const BoardPair> all, std::span<const BoardFit> fits,
   location.alternatives = {located(all, best), located(all, other)};
   location.reason = flip_reason(location.alternatives[0], location.alternatives[1],
                                 best.pairs.size(), evidence, min_evidence);
+}
+
+/// The board's markers that are seen and that a pose does not explain, each once. A marker that is
+/// seen twice, of which one fits, contradicts nothing.
+std::vector<std::string> contradicting(const SeenBoard& seen, const BoardFit& best,
+                                       std::span<const Observation> observations) {
+  std::set<FeatureKey> explained;
+  for (const std::size_t i : best.pairs) {
+    explained.insert(observations[seen.pairs[i].observation].key);
+  }
+  std::set<FeatureKey> others;
+  for (const BoardPair& pair : seen.pairs) {
+    const FeatureKey& key = observations[pair.observation].key;
+    if (!explained.contains(key)) others.insert(key);
+  }
+  std::vector<std::string> names;
+  for (const FeatureKey& key : others) names.push_back(key.value);
+  return names;
+}
+
+std::size_t markers_in(const SeenBoard& seen, std::span<const Observation> observations) {
+  std::set<FeatureKey> keys;
+  for (const BoardPair& pair : seen.pairs) keys.insert(observations[pair.observation].key);
+  return keys.size();
+}
+
+/// The covariance with room for an error that is known by its cause.
+void widen(LocatedPose& pose, const Pose& T_world_cam) {
+  Eigen::Matrix<double, 6, 1> error;
+  error.head<3>() = T_world_cam.translation() - pose.T_world_cam.translation();
+  error.tail<3>() = reconstruction::detail::log_of(T_world_cam.quaternion() *
+                                                   pose.T_world_cam.quaternion().conjugate());
+  pose.covariance += error * error.transpose();
+}
+
+/// What speaks against a pose that was found.
+void doubt(const Lens& lens, const SeenBoard& seen, const BoardFit& best,
+           const std::optional<reconstruction::detail::Explanation>& explanation,
+           const std::vector<std::string>& against, CameraLocation& location) {
+  if (!against.empty()) {
+    location.warning = fmt::format(
+        "{} of the {} markers of the board that are seen contradict the pose ({}): {}",
+        against.size(), location.markers_seen, fmt::join(against, ", "),
+        explanation ? fmt::format("all but {} agree if {}", location.markers_seen - explanation->markers,
+                                  explanation->cause)
+                    : std::string("they were moved, read wrongly, or stand elsewhere in the "
+                                  "workcell"));
+    if (explanation) {
+      if (explanation->markers == location.markers_seen) {
+        location.warning = fmt::format(
+            "{} of the {} markers of the board that are seen contradict the pose ({}): all agree "
+            "if {}",
+            against.size(), location.markers_seen, fmt::join(against, ", "), explanation->cause);
+      }
+      widen(*location.pose, explanation->T_cam_world.inverse());
+      return;
+    }
+  }
+  const auto residuals = reconstruction::detail::residual_cause(lens, seen.pairs, best);
+  if (!residuals) return;
+  // The corners of one marker err together: they count as one.
+  constexpr double kCornersOfMarker = 4;
+  if (residuals->cause.empty()) location.pose->covariance *= kCornersOfMarker;
+  if (!residuals->cause.empty()) widen(*location.pose, residuals->T_cam_world.inverse());
+  const std::string text = fmt::format(
+      "the residuals are {:.1f} times the corners' noise: {}", residuals->noise_ratio,
+      residuals->cause.empty() ? "check the calibration, and the board's sizes and flatness"
+                               : "most of that is gone if " + residuals->cause);
+  location.warning += (location.warning.empty() ? "" : "; ") + text;
 }
 
 }  // namespace
@@ -142,9 +219,24 @@ CameraLocation locate_camera(const Lens& lens, std::span<const Observation> obse
       reconstruction::detail::hypotheses(seen.pairs, options.inlier_px);
   const auto fits = reconstruction::detail::settled_fits(seen.pairs, hypotheses, options.inlier_px);
   const BoardFit* best = fits.empty() ? nullptr : &fits.front();
+  location.markers_seen = markers_in(seen, observations);
+  const std::vector<std::string> against =
+      best ? contradicting(seen, *best, observations) : std::vector<std::string>();
+  std::optional<reconstruction::detail::Explanation> explanation;
+  if (!best || !against.empty()) {
+    explanation = reconstruction::detail::explain_contradiction(
+        lens, seen.pairs, board, best ? best->pairs.size() : 1, location.markers_seen,
+        options.inlier_px);
+  }
+  const std::string hint = explanation ? fmt::format("; {} agree if {}", explanation->markers,
+                                                     explanation->cause)
+                                       : std::string();
   // A marker that is read wrongly fits to a pose of its own as well as a right one.
-  if (!best || (best->pairs.size() < 2 && seen.observations.size() > 1)) {
-    location.reason = disagreement(seen, best, options.inlier_px);
+  const bool mistaken = explanation && explanation->exact && against.size() > 1 &&
+                        explanation->markers == location.markers_seen;
+  const bool majority = best && best->pairs.size() >= 2 * against.size() && !mistaken;
+  if (!best || !majority || (best->pairs.size() < 2 && seen.observations.size() > 1)) {
+    location.reason = disagreement(seen, best, options.inlier_px) + hint;
     return location;
   }
   for (const std::size_t i : best->pairs) {
@@ -152,6 +244,8 @@ CameraLocation locate_camera(const Lens& lens, std::span<const Observation> obse
     std::erase(location.outliers, seen.pairs[i].observation);
   }
   decide(seen.pairs, fits, hypotheses, options.min_evidence, location);
+  if (!location.pose) location.reason += hint;
+  if (location.pose) doubt(lens, seen, *best, explanation, against, location);
   return location;
 }
 

@@ -35,14 +35,23 @@ struct CameraLocation {
   std::vector<LocatedPose> alternatives = {};
   std::vector<std::size_t> inliers = {};   ///< observations that the pose explains
   std::vector<std::size_t> outliers = {};  ///< observations of the board's markers that it does not
+  /// Of the board's markers, those that are seen and sound, each counted once: the pose is "by 5 of
+  /// 7 markers".
+  std::size_t markers_seen = 0;
+  /// What speaks against the pose, with the likely cause; empty if nothing does. The covariance is
+  /// then wide enough for the cause that is named.
+  std::string warning = {};
 };
 
 /// The pose of a camera from the markers of a board, whatever their layout; robust against markers
 /// that are read wrongly or moved. Minimises the reprojection error with the lens' distortion
 /// (robustly) from every pose that a single marker suggests.
 ///
-/// Without a pose, and with a reason, if no marker of the board is seen, if too few agree, or if
-/// the pose is ambiguous: a planar board far away, seen from the front, or a single marker.
+/// Without a pose, and with a reason, if no marker of the board is seen, if those that agree are
+/// less than twice as many as those that contradict them, or if the pose is ambiguous: a planar
+/// board far away, seen from the front, or a single marker. Where markers contradict each other, or
+/// residuals are no noise, the usual mistakes are tried (focal length, resolution, axes, a turned
+/// picture, the parity of a checkerboard, sizes, a bent board), and the one that fits is named.
 /// @param board features in the world's frame; those without points are ignored.
 /// Thread-safe.
 VANTAGE_API CameraLocation locate_camera(const Lens& lens,

@@ -44,6 +44,7 @@ struct ReconstructedObject {
   double rms_px = 0;                           ///< over the points of all inliers
   std::vector<Support> support = {};           ///< ascending by id
   std::vector<Alternative> alternatives = {};  ///< likeliest first
+  std::string warning = {};                    ///< what speaks against it; empty if nothing does
 };
 
 /// An observation that no object was made of.
