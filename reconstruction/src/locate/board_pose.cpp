@@ -157,7 +157,7 @@ std::vector<PoseFit> other_minima(std::span<const BoardPair> all, const BoardFit
 }
 
 double chi_square_if_bent(std::span<const BoardPair> all, const BoardFit& board) {
-  constexpr double kFlatness = 0.01;
+  constexpr double kFlatness = 0.015;
   std::vector<Eigen::Vector3d> points;
   for (const std::size_t i : board.pairs) {
     const auto& of_pair = all[i].term.points_m;
