@@ -8,6 +8,7 @@
 #include <vantage/raycore/mesh_io.hpp>
 
 #include "mesh/decoder/child_process.hpp"
+#include "raycore/mesh_samples.hpp"
 #include "support/expect_error.hpp"
 #include "support/test_data.hpp"
 
@@ -74,6 +75,44 @@ TEST_CASE("a DAE's unit makes metres, and unit_m comes on top of it") {
   CHECK((corner - Eigen::Vector3f(0.01f, 0.02f, 0.03f)).norm() < 1e-8f);
   const auto half = first_corner("<unit meter=\"0.01\"/><up_axis>Z_UP</up_axis>", {0.5, {}});
   CHECK((half - Eigen::Vector3f(0.005f, 0.01f, 0.015f)).norm() < 1e-8f);
+}
+
+TEST_CASE("a 3DS keeps its coordinates, whatever assimp makes of them") {
+  const auto chunk = [](std::uint16_t id, const std::string& content) {
+    return test::raw(id) + test::raw(std::uint32_t(6 + content.size())) + content;
+  };
+  std::string points = test::raw(std::uint16_t(3)), face = test::raw(std::uint16_t(1));
+  for (const float f : {1, 2, 3, 4, 2, 3, 1, 5, 3}) points += test::raw(f);
+  for (const int i : {0, 1, 2, 7}) face += test::raw(std::uint16_t(i));
+  const std::string object =
+      std::string("part\0", 5) + chunk(0x4100, chunk(0x4110, points) + chunk(0x4120, face));
+  const test::TemporaryFolder folder;
+  const auto file = folder.write("a.3ds", chunk(0x4D4D, chunk(0x3D3D, chunk(0x4000, object))));
+  CHECK(read_mesh(file).corner(0, 0) == Eigen::Vector3f(1, 2, 3));
+  CHECK(read_mesh(file, {1, UpAxis::y}).corner(0, 0) == Eigen::Vector3f(1, -3, 2));
+}
+
+TEST_CASE("an FBX stands as it says") {
+  const auto corner = [](int axis, int sign) {
+    const test::TemporaryFolder folder;
+    const std::string text = fmt::format(
+        "; FBX 7.4.0 project file\nFBXHeaderExtension:  {{\n FBXHeaderVersion: 1003\n FBXVersion: "
+        "7400\n"
+        "}}\nGlobalSettings:  {{\n Version: 1000\n Properties70:  {{\n  P: \"UpAxis\", \"int\", "
+        "\"Integer\", \"\",{}\n  P: \"UpAxisSign\", \"int\", \"Integer\", \"\",{}\n "
+        "}}\n}}\nObjects:  {{\n"
+        " Geometry: 10, \"Geometry::\", \"Mesh\" {{\n  Vertices: *9 {{\n   a: 1,2,3,4,2,3,1,5,3\n  "
+        "}}\n"
+        "  PolygonVertexIndex: *3 {{\n   a: 0,1,-3\n  }}\n }}\n"
+        " Model: 20, \"Model::part\", \"Mesh\" {{\n  Version: 232\n }}\n}}\nConnections:  {{\n"
+        " C: \"OO\",20,0\n C: \"OO\",10,20\n}}\n",
+        axis, sign);
+    return read_mesh(folder.write("a.fbx", text)).corner(0, 0);
+  };
+  CHECK(corner(2, 1) == Eigen::Vector3f(1, 2, 3));
+  CHECK(corner(1, 1) == Eigen::Vector3f(1, -3, 2));
+  CHECK(corner(0, 1) == Eigen::Vector3f(-2, -3, 1));
+  CHECK(corner(1, -1) == Eigen::Vector3f(1, 3, -2));
 }
 
 TEST_CASE("what assimp refuses is an error with its reason") {

@@ -88,10 +88,17 @@ void add_part(const aiMesh& part, const Eigen::Matrix4d& T_scene_part, PolygonSo
   }
 }
 
+/// assimp turns a 3DS, which is z-up, to y-up: back.
+Eigen::Matrix4d turn_back(const std::string& ending) {
+  Eigen::Matrix4d turn = Eigen::Matrix4d::Identity();
+  if (ending == "3ds") turn.topLeftCorner<3, 3>() << 1, 0, 0, 0, 0, -1, 0, 1, 0;
+  return turn;
+}
+
 /// Every mesh of the scene at every node that shows it. A list of what is left to do instead of
 /// recursion: the file decides how deep the nodes are.
-void add_scene(const aiScene& scene, PolygonSoup& soup) {
-  std::vector<PlacedNode> left = {{scene.mRootNode, Eigen::Matrix4d::Identity()}};
+void add_scene(const aiScene& scene, const Eigen::Matrix4d& T_file_scene, PolygonSoup& soup) {
+  std::vector<PlacedNode> left = {{scene.mRootNode, T_file_scene}};
   while (!left.empty()) {
     const auto [node, T_scene_parent] = left.back();
     left.pop_back();
@@ -134,7 +141,7 @@ PolygonSoup decode(std::span<const std::uint8_t> bytes, const std::string& endin
   }
   if (ending == "dae") soup.up = collada_up(as_text(bytes));
   if (ending == "fbx") soup.up = fbx_up(*scene);
-  add_scene(*scene, soup);
+  add_scene(*scene, turn_back(ending), soup);
   return soup;
 }
 
