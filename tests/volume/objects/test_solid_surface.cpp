@@ -191,7 +191,7 @@ TEST_CASE("world coordinates so far out that float shows are refused with the nu
     world.cameras.push_back(
         {"front", test::kFront.moved_to(away * test::kFront.T_world_cam()), nullptr});
     const Eigen::Vector3d shift(offset, offset, 0);
-    const Box area = random_workcell_area();
+    const Box area = test::random_workcell_area();
     return classify(
         world, GridGeometry::covering(Box(area.min() + shift, area.max() + shift), voxel_size_m),
         test::volume_mode(OccluderMode::mesh, false));
