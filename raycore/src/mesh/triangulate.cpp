@@ -2,7 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <cmath>
+#include <utility>
 
 namespace vantage::raycore::detail {
 namespace {

@@ -83,6 +83,10 @@ std::vector<Triangle> sheets_of(const SolidSurface& solid, const WindingNumber& 
 void MeshTopology::decide_inside(const TriangleMesh& mesh, bool faces_are_paired) {
   if (mesh.empty() || (closure != Closure::open && !faces_are_paired)) return;
   solid = std::make_shared<const SolidSurface>(solid_surface(mesh, closure == Closure::open));
+  if (closure != Closure::open && solid->triangles.size() == mesh.triangles().size()) {
+    solid = nullptr;  // parts that touch at an edge, and nothing twice
+    return;
+  }
   const EdgeBalance balance(solid->triangles);
   closure = balance.closure();
   unmatched_edges = closure == Closure::open ? balance.odd : 0;

@@ -16,6 +16,7 @@
 #include <cstdio>
 #include <new>
 #include <system_error>
+#include <utility>
 
 #include "vantage/raycore/error.hpp"
 

@@ -10,7 +10,9 @@
 #include <Eigen/LU>
 #include <assimp/Importer.hpp>
 #include <set>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "mesh/decoder/collada_up.hpp"
 #include "mesh/decoder/polygon_soup.hpp"

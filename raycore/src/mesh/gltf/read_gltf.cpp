@@ -8,6 +8,8 @@
 #include <cmath>
 #include <ranges>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "mesh/gltf/gltf_accessors.hpp"
 #include "mesh/gltf/gltf_file.hpp"
