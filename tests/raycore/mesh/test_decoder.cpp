@@ -133,7 +133,7 @@ TEST_CASE("what assimp refuses is an error with its reason") {
 }
 
 TEST_CASE("a decoder's process may crash, run, wait or write in vain") {
-  const raycore::detail::ChildLimits limits = {1, 3, 64 << 20};
+  const raycore::detail::ChildLimits limits = {1, 60, 64 << 20};
   CHECK(end_of(limits, [](int) { std::abort(); }).find("crashed (signal 6)") == 0);
   CHECK(end_of(limits, [](int) { ::_exit(3); }) == "failed (exit code 3)");
   CHECK(end_of(limits, [](int) {
