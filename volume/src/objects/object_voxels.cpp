@@ -1,54 +1,16 @@
 #include "objects/object_voxels.hpp"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
-#include <atomic>
-#include <cmath>
 #include <limits>
-#include <span>
 #include <tuple>
 
-#include "grid/grid_frame.hpp"
+#include "objects/block_buffer.hpp"
 #include "objects/scan_lines.hpp"
 #include "objects/triangle_box.hpp"
+#include "objects/wound_voxels.hpp"
 
 namespace vantage::volume::detail {
 namespace {
-
-/// Numbers the cells of a range, x slowest.
-std::size_t index_in(const CellRange& range, const Eigen::Vector3i& cell) {
-  const Eigen::Vector3i c = cell - range.first, n = range.size();
-  return (std::size_t(c.x()) * std::size_t(n.y()) + std::size_t(c.y())) * std::size_t(n.z()) +
-         std::size_t(c.z());
-}
-
-/// A box of blocks that is filled voxel by voxel, then stripped of the empty ones.
-class BlockBuffer {
- public:
-  BlockBuffer(const BlockLayout& layout, const CellRange& voxels)
-      : layout_(layout),
-        range_{voxels.first / kBlockSide, (voxels.last.array() + (kBlockSide - 1)) / kBlockSide},
-        bits_(range_.count()) {}
-
-  void set(const Eigen::Vector3i& voxel) {
-    bits_[index_in(range_, voxel / kBlockSide)].set(offset_in_block(voxel));
-  }
-
-  ObjectVoxels finish() const {
-    ObjectVoxels result;
-    range_.for_each([&](const Eigen::Vector3i& block) {
-      const BlockBits& bits = bits_[index_in(range_, block)];
-      if (!bits.none()) result.blocks.push_back({layout_.index(block), bits});
-    });
-    return result;
-  }
-
- private:
-  const BlockLayout& layout_;
-  CellRange range_;
-  std::vector<BlockBits> bits_;
-};
 
 struct Bounds {
   Eigen::Vector3d low, high;
@@ -98,10 +60,6 @@ void for_each_cell_touched(const PlacedTriangles& mesh, double cell_size_m, cons
   }
 }
 
-bool crosses_earlier(const Crossing& a, const Crossing& b) {
-  return std::tuple(a.i, a.j, a.z) < std::tuple(b.i, b.j, b.z);
-}
-
 void fill_inside(const PlacedTriangles& mesh, Closure closure, const CellRange& voxels,
                  double voxel_size_m, BlockBuffer& buffer) {
   std::vector<Crossing> crossings = scan_line_crossings(mesh, voxels, voxel_size_m);
@@ -122,103 +80,11 @@ void fill_inside(const PlacedTriangles& mesh, Closure closure, const CellRange& 
   }
 }
 
-/// Fills by winding numbers, column by column. Between two crossings with the surface the number
-/// changes smoothly: where its ends and its middle agree clearly, all of a stretch is as they are.
-class WoundColumns {
- public:
-  WoundColumns(const PlacedMesh& placed, const CellRange& voxels, double voxel_size_m,
-               BlockBuffer& buffer)
-      : winding_(*placed.topology->winding),
-        T_mesh_grid_(placed.T_grid_mesh.inverse()),
-        voxels_(voxels),
-        voxel_size_m_(voxel_size_m),
-        buffer_(buffer) {}
-
-  /// @param crossings  all of this column, in ascending order.
-  void fill(int i, int j, std::span<const Crossing> crossings) {
-    int first = voxels_.first.z();
-    for (const Crossing& crossing : crossings) {
-      const int next =
-          std::clamp(first_centre_above(crossing.z, voxel_size_m_), first, voxels_.last.z());
-      fill_stretch({i, j, first}, next);
-      first = next;
-    }
-    fill_stretch({i, j, first}, voxels_.last.z());
-  }
-
-  std::uint64_t wound = 0, ambiguous = 0;
-
- private:
-  double number_at(const Eigen::Vector3i& voxel) const {
-    const Eigen::Vector3d centre(centre_coordinate(voxel.x(), voxel_size_m_),
-                                 centre_coordinate(voxel.y(), voxel_size_m_),
-                                 centre_coordinate(voxel.z(), voxel_size_m_));
-    return std::abs(winding_.at(T_mesh_grid_ * centre));
-  }
-
-  void fill_stretch(Eigen::Vector3i voxel, int end) {
-    const int first = voxel.z(), last = end - 1;
-    if (last < first) return;
-    double low = std::numeric_limits<double>::max(), high = 0;
-    for (const int k : {first, (first + last) / 2, last}) {
-      const double number = number_at({voxel.x(), voxel.y(), k});
-      low = std::min(low, number);
-      high = std::max(high, number);
-    }
-    if (high < kOutside) return;
-    for (; voxel.z() <= last; ++voxel.z()) {
-      const double number = low > kClearlyInside ? low : number_at(voxel);
-      if (number < kOutside) continue;
-      ++wound;
-      ambiguous += number < kClearlyInside ? 1 : 0;
-      if (number > kInside) buffer_.set(voxel);
-    }
-  }
-
-  static constexpr double kOutside = 0.25, kClearlyInside = 0.75;
-  /// Winding numbers are off by less than 0.01: a large sheet has one half behind it.
-  static constexpr double kInside = 0.51;
-
-  const WindingNumber& winding_;
-  Pose T_mesh_grid_;
-  const CellRange& voxels_;
-  double voxel_size_m_;
-  BlockBuffer& buffer_;
-};
-
-/// Slice by slice of blocks, which no two threads share.
-void fill_wound(const PlacedMesh& placed, const PlacedTriangles& mesh, const CellRange& voxels,
-                double voxel_size_m, const StopToken& stop, BlockBuffer& buffer,
-                ObjectVoxels& counts) {
-  std::vector<Crossing> crossings = scan_line_crossings(mesh, voxels, voxel_size_m);
-  std::sort(crossings.begin(), crossings.end(), crosses_earlier);
-  std::atomic<std::uint64_t> wound = 0, ambiguous = 0;
-  const auto fill_slice = [&](int slice) {
-    WoundColumns columns(placed, voxels, voxel_size_m, buffer);
-    const int first = std::max(voxels.first.x(), slice * kBlockSide);
-    const int last = std::min(voxels.last.x(), (slice + 1) * kBlockSide);
-    auto next = std::lower_bound(crossings.begin(), crossings.end(), first,
-                                 [](const Crossing& c, int i) { return c.i < i; });
-    for (int i = first; i < last && !stop.stop_requested(); ++i) {
-      for (int j = voxels.first.y(); j < voxels.last.y(); ++j) {
-        const auto start = next;
-        while (next != crossings.end() && next->i == i && next->j == j) ++next;
-        columns.fill(i, j, {start, next});
-      }
-    }
-    wound += columns.wound;
-    ambiguous += columns.ambiguous;
-  };
-  tbb::parallel_for(voxels.first.x() / kBlockSide, (voxels.last.x() - 1) / kBlockSide + 1,
-                    fill_slice);
-  counts.wound = wound;
-  counts.ambiguous = ambiguous;
-}
-
 void fill_open(const PlacedMesh& placed, const PlacedTriangles& mesh, const CellRange& voxels,
                double voxel_size_m, const StopToken& stop, BlockBuffer& buffer,
                ObjectVoxels& counts) {
-  fill_wound(placed, mesh, voxels, voxel_size_m, stop, buffer, counts);
+  std::tie(counts.wound, counts.ambiguous) =
+      fill_wound(placed, mesh, voxels, voxel_size_m, stop, buffer);
   const PlacedTriangles sheets(placed.topology->solid->vertices, placed.topology->sheets,
                                placed.T_grid_mesh);
   for_each_cell_touched(sheets, voxel_size_m, voxels,

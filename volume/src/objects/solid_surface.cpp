@@ -180,7 +180,15 @@ class PairedFaces {
     return 0;
   }
 
-  void resolve_part(const Part& part) {
+  /// How a part lies in the rest of the surface.
+  struct Fit {
+    bool closed = true;         // it is closed by itself
+    bool alone = true;          // nothing else has one of its edges
+    bool closes = true;         // as oriented, it closes the hole of the rest that it lies in
+    bool closes_turned = true;  // turned over, it does
+  };
+
+  Fit fit_of(const Part& part) const {
     std::map<Edge, std::pair<int, int>> edges;  // how many of the part's faces, and their balance
     for (const std::uint32_t i : part.faces) {
       for (std::size_t side = 0; side < 3; ++side) {
@@ -189,22 +197,28 @@ class PairedFaces {
         balance += flip_[i] * direction(faces_.paired[i], side);
       }
     }
-    bool closed = true, alone = true, fits = true, fits_turned = true;
+    Fit fit;
     for (const auto& [edge, found] : edges) {
       const auto& [count, balance] = found;
-      closed = closed && count % 2 == 0;
       const auto rest = single_.find(edge);
       const int missing = rest == single_.end() ? 0 : -rest->second;
-      alone = alone && rest == single_.end() && at_edge_.at(edge).size() == std::size_t(count);
-      fits = fits && balance == missing;
-      fits_turned = fits_turned && -balance == missing;
+      fit.closed = fit.closed && count % 2 == 0;
+      fit.alone =
+          fit.alone && rest == single_.end() && at_edge_.at(edge).size() == std::size_t(count);
+      fit.closes = fit.closes && balance == missing;
+      fit.closes_turned = fit.closes_turned && -balance == missing;
     }
+    return fit;
+  }
+
+  void resolve_part(const Part& part) {
+    const Fit fit = fit_of(part);
     if (!part.orientable) {
       surface_.unexplained_pairs += part.faces.size();
-    } else if (closed || alone) {
+    } else if (fit.closed || fit.alone) {
       add(part, doubled_volume(part) < 0 ? -1 : 1);
-    } else if (fits || fits_turned) {
-      add(part, fits ? 1 : -1);
+    } else if (fit.closes || fit.closes_turned) {
+      add(part, fit.closes ? 1 : -1);
     } else if (faces_.single.empty()) {
       surface_.unexplained_pairs += part.faces.size();
     }
