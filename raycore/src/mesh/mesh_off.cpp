@@ -33,7 +33,7 @@ std::uint64_t to_count(std::string_view word, const char* what, const TextScanne
 std::string_view read_keyword(TextScanner& text) {
   TextScanner at_start = text;
   const std::string_view word = off_word(text);
-  if (!word.empty() && word.front() >= '0' && word.front() <= '9') {
+  if (to_integer(word)) {
     text = at_start;
     return {};
   }

@@ -128,12 +128,15 @@ TEST_CASE("accessors of a glTF may be sparse, interleaved, or integers") {
                               {"/accessors/1/byteOffset", 6},
                               {"/meshes/0/primitives/0/mode", 4}});
   expect_gltf_refused(apart, "meshes[0].primitives[0]", "index 3");
-  const Json bytes = changed({{"/accessors/0/componentType", 5121},
-                              {"/accessors/0/normalized", true},
-                              {"/bufferViews/0/byteOffset", 12},
-                              {"/bufferViews/0/byteLength", 36},
-                              {"/accessors/0/byteOffset", 1}});
-  CHECK(read_gltf_of(bytes).vertices()[0] == Eigen::Vector3f(0, -63 / 255.f, 128 / 255.f));
+  Json bytes = changed({{"/accessors/0/componentType", 5121},
+                        {"/accessors/0/normalized", true},
+                        {"/accessors/1/componentType", 5121},
+                        {"/accessors/1/count", 3}});
+  bytes["bufferViews"][0]["byteLength"] = 12;
+  bytes["bufferViews"][1] = {{"buffer", 0}, {"byteOffset", 12}, {"byteLength", 3}};
+  // "data:;base64," and (0, 0, 0), (255, 0, 0), (0, 51, 0), (0, 0, 255), then 0, 1, 2
+  bytes["buffers"][0] = {{"byteLength", 15}, {"uri", "data:;base64,AAAA/wAAADMAAAD/AAEC"}};
+  CHECK(corners_of(read_gltf_of(bytes)) == Corners{{0, 0, 0}, {1, 0, 0}, {0, 0, 0.2f}});
 }
 
 TEST_CASE("glTF: sizes that do not fit are refused where they stand") {

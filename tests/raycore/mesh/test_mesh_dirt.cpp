@@ -39,6 +39,7 @@ TEST_CASE("bytes behind the end of an STL") {
 TEST_CASE("more behind the last element of a PLY") {
   expect_remark("a.ply", test::ply("ascii") + "3\n", {"more follows the last element"});
   expect_remark("a.ply", test::ply("binary_little_endian") + "more", {"more follows"});
+  expect_remark("a.ply", replaced(test::ply("ascii"), "edge 2", "edge 1"), {"is a count wrong?"});
   const test::TemporaryFolder folder;
   const auto file = folder.write("a.ply", test::ply("binary_big_endian") + "\r\n");
   CHECK(read_mesh(file).remarks().empty());  // some programs end it with a line
@@ -46,7 +47,7 @@ TEST_CASE("more behind the last element of a PLY") {
 
 TEST_CASE("vertices that are no points matter only to faces that use them") {
   const std::string obj = test::obj_text();
-  expect_remark("a.obj", obj + "v nan 0 0\nv 0 inf 0\n", {"a.obj:14", "2 vertices", "nan"});
+  expect_remark("a.obj", obj + "v nan 0 0\nv 0 inf 0\n", {"a.obj:15", "2 vertices", "nan"});
   expect_remark("a.obj",
                 "v 0 0 -1e9\n" + replaced(replaced(replaced(obj, "f 1 3 2", "f 2 4 3"),
                                                    "f 1/1 2/1 4/1", "f 2 3 5"),

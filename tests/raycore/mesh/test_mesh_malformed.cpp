@@ -117,7 +117,6 @@ TEST_CASE("PLY: a header that claims more than the file holds is refused before 
       expect_refused("a.ply", replaced(whole, "face 4", std::string("face ") + count), "a.ply",
                      "of the element \"face\"");
     }
-    expect_refused("a.ply", replaced(whole, "edge 2", "edge 1"), "a.ply", "the header claims");
     expect_refused("a.ply", replaced(whole, "property uint32 length\n", ""), "a.ply",
                    "the element \"edge\" has no properties");
     expect_refused("a.ply", whole.substr(0, whole.size() - 3), "a.ply", "truncated");

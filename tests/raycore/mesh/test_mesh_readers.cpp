@@ -68,11 +68,11 @@ TEST_CASE("a PLY may have every type, any order, and faces before vertices") {
       "property char x\r\nproperty ushort y\r\nend_header\r\n";
   const std::string body = std::string("\4") + test::raw(std::uint16_t(0), true) +
                            test::raw(std::uint16_t(1), true) + test::raw(std::uint16_t(2), true) +
-                           test::raw(std::uint16_t(3), true) + std::string("\0\0\0\0", 4) +
-                           std::string("\0\xff\0\0", 4) + std::string("\0\xff\1\0", 4) +
+                           test::raw(std::uint16_t(3), true) + std::string("\310\0\0\0", 4) +
+                           std::string("\310\xff\0\0", 4) + std::string("\310\xff\1\0", 4) +
                            std::string("\310\0\1\0", 4);
   const auto found = faces(read_bytes("a.ply", header + body));
-  const Eigen::Vector3f a(0, 0, 0), b(-1, 0, 0), c(-1, 256, 0), d(0, 256, 200);
+  const Eigen::Vector3f a(0, 0, 200), b(-1, 0, 200), c(-1, 256, 200), d(0, 256, 200);
   REQUIRE(found.size() == 2);  // the quadrangle, as a fan
   CHECK(found[0] == std::array{a, b, c});
   CHECK(found[1] == std::array{a, c, d});
