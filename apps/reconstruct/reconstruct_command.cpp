@@ -59,6 +59,15 @@ void warn_of(const BopScene& scene, const SceneReconstruction& reconstruction,
   }
 }
 
+/// What was odd about the mesh files of the types that are looked for.
+void warn_of_meshes(const KnowledgeBase& knowledge) {
+  for (const TypePtr& type : knowledge.types()) {
+    for (const std::string& remark : type->mesh->remarks()) {
+      spdlog::warn("type {}: {}", type->name, remark);
+    }
+  }
+}
+
 WorldRecord record_of(const ReconstructCommand& command, const BopScene& scene,
                       const Workcell& workcell, const SceneReconstruction& reconstruction) {
   WorldRecord record{workcell.files, config_of(command.how), 0, 0};
@@ -78,6 +87,7 @@ ExitCode reconstruct_command(const ReconstructCommand& command) {
   Workers workers(command.threads);
   const SceneReconstructionOptions options = options_of(command.how);
   const Workcell workcell = load_workcell(command.workcell);
+  warn_of_meshes(*workcell.knowledge);
   const BopScene scene = load_dataset(command.dataset, workcell, command.images, options.observe);
   const double load_s = seconds_since(start);
 

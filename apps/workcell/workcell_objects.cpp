@@ -12,13 +12,18 @@ TriangleMesh read_mesh_of(const Value& value, const std::filesystem::path& folde
                           std::vector<std::filesystem::path>& files) {
   if (value.has("box")) return TriangleMesh::from_box(read_box(value["box"]));
   if (value.has("shape")) return read_shape(value["shape"], folder, files);
-  return read_mesh_file(value["mesh"], value.get("unit_m", 1.0), folder, files);
+  std::optional<double> unit_m;
+  if (value.has("unit_m")) unit_m = value["unit_m"].as<double>();
+  return read_mesh_value(value["mesh"], folder, files, unit_m);
 }
 
 /// Keys that the schema cannot tie to others.
 void check_keys(const Value& value) {
   if (value.has("unit_m") && !value.has("mesh")) {
     throw value["unit_m"].error("only a mesh has a unit; give all else in metres");
+  }
+  if (value.has("unit_m") && !value["mesh"].is_string() && value["mesh"].has("unit_m")) {
+    throw value["unit_m"].error("the mesh says its unit itself; remove one of the two");
   }
   if (value.has("color") && value.has("type")) {
     throw value["color"].error("a type has its colour in the knowledge base; remove this one");

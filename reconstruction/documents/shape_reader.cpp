@@ -1,6 +1,8 @@
 #include "documents/shape_reader.hpp"
 
+#include <algorithm>
 #include <array>
+#include <string>
 
 #include "documents/value_readers.hpp"
 #include "vantage/raycore/mesh_io.hpp"
@@ -50,6 +52,12 @@ TriangleMesh make(const Solid& solid, const Value& value) {
   }
 }
 
+/// A name that the schema lets through.
+UpAxis up_axis(const std::string& name) {
+  constexpr std::array<const char*, 6> kNames = {"x", "y", "z", "-x", "-y", "-z"};
+  return UpAxis(std::find(kNames.begin(), kNames.end(), name) - kNames.begin());
+}
+
 }  // namespace
 
 TriangleMesh read_shape(const Value& shape, const std::filesystem::path& folder,
@@ -57,13 +65,17 @@ TriangleMesh read_shape(const Value& shape, const std::filesystem::path& folder,
   for (const Solid& solid : kSolids) {
     if (shape.has(solid.name)) return make(solid, shape[solid.name]);
   }
-  const Value mesh = shape["mesh"];
-  return read_mesh_file(mesh["file"], mesh.get("unit_m", 1.0), folder, files);
+  return read_mesh_value(shape["mesh"], folder, files);
 }
 
-TriangleMesh read_mesh_file(const Value& name, double unit_m, const std::filesystem::path& folder,
-                            std::vector<std::filesystem::path>& files) {
-  return read_mesh(named_file(name, folder, files), unit_m);
+TriangleMesh read_mesh_value(const Value& mesh, const std::filesystem::path& folder,
+                             std::vector<std::filesystem::path>& files,
+                             const std::optional<double>& unit_m) {
+  MeshFileFrame frame{.unit_m = unit_m.value_or(1.0)};
+  if (mesh.is_string()) return read_mesh(named_file(mesh, folder, files), frame);
+  frame.unit_m = mesh.get("unit_m", frame.unit_m);
+  if (mesh.has("up")) frame.up = up_axis(mesh["up"].as<std::string>());
+  return read_mesh(named_file(mesh["file"], folder, files), frame);
 }
 
 }  // namespace vantage

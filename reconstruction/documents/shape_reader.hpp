@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <vector>
 
 #include "documents/document_value.hpp"
@@ -15,8 +16,10 @@ namespace vantage {
 TriangleMesh read_shape(const Value& shape, const std::filesystem::path& folder,
                         std::vector<std::filesystem::path>& files);
 
-/// Reads a mesh file that a key names.
-TriangleMesh read_mesh_file(const Value& name, double unit_m, const std::filesystem::path& folder,
-                            std::vector<std::filesystem::path>& files);
+/// Reads what the key `mesh` names: a file, or {file, unit_m, up}.
+/// @param unit_m what a key beside `mesh` says, which `mesh` may say itself.
+TriangleMesh read_mesh_value(const Value& mesh, const std::filesystem::path& folder,
+                             std::vector<std::filesystem::path>& files,
+                             const std::optional<double>& unit_m = {});
 
 }  // namespace vantage

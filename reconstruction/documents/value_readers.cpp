@@ -49,7 +49,16 @@ namespace {
 fs::path named(const Value& value, const fs::path& folder, bool may_be_folder,
                std::vector<fs::path>& files) {
   const fs::path file = folder / value.as<std::string>();
-  if (!fs::is_regular_file(file) && !(may_be_folder && fs::is_directory(file))) {
+  std::error_code unused;
+  const fs::file_status status = fs::status(file, unused);
+  if (fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status)) {
+    throw value.error(
+        fmt::format("{} is a device, a pipe or a socket; expected a regular file", file.string()));
+  }
+  if (fs::is_directory(status) && !may_be_folder) {
+    throw value.error(fmt::format("{} is a folder; expected a file", file.string()));
+  }
+  if (!fs::exists(status)) {
     throw value.error(
         fmt::format("there is no file{} {}; the path is relative to the folder of the "
                     "file that names it",

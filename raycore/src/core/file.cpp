@@ -72,6 +72,16 @@ std::size_t read_all(const fs::path& path, int file, std::vector<std::uint8_t>& 
   return done;
 }
 
+/// In a clone without Git LFS a large file is a few lines that say where it is.
+void check_no_pointer(const fs::path& path, const std::vector<std::uint8_t>& bytes) {
+  constexpr std::string_view kStart = "version https://git-lfs.github.com/spec/";
+  const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  if (bytes.size() > 1024 || !text.starts_with(kStart)) return;
+  throw bad_input(path.string(),
+                  "is a pointer of Git LFS, not the file itself; install git-lfs and run "
+                  "\"git lfs pull\" in the repository that it comes from");
+}
+
 void write_all(const fs::path& path, int file, std::string_view bytes) {
   while (!bytes.empty()) {
     const ssize_t count = ::write(file, bytes.data(), bytes.size());
@@ -149,6 +159,7 @@ std::vector<std::uint8_t> read_file(const fs::path& path, std::size_t max_bytes)
   try {
     std::vector<std::uint8_t> bytes(size);
     bytes.resize(read_all(path, file.get(), bytes));
+    check_no_pointer(path, bytes);
     return bytes;
   } catch (const std::bad_alloc&) {
     throw Error(ErrorCode::out_of_resources, path.string(),

@@ -2,43 +2,66 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <limits>
 #include <utility>
 
 #include "geometry/coordinates.hpp"
+#include "mesh/triangulate.hpp"
 
 namespace vantage::raycore::detail {
+namespace {
+
+/// Turns the file's up axis to z. For y it is what COLLADA's and glTF's users expect: x stays, and
+/// what looks at the viewer (z) looks along -y; for x it is COLLADA's X_UP. A negative axis is the
+/// positive one turned by half about x.
+Eigen::Matrix3d turn_up(UpAxis up) {
+  Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
+  if (up == UpAxis::y || up == UpAxis::minus_y) turn << 1, 0, 0, 0, 0, -1, 0, 1, 0;
+  if (up == UpAxis::x || up == UpAxis::minus_x) turn << 0, -1, 0, 0, 0, -1, 1, 0, 0;
+  if (up >= UpAxis::minus_x) turn.bottomRows<2>() *= -1;
+  return turn;
+}
+
+}  // namespace
 
 void MeshCollector::reserve(std::size_t vertices, std::size_t triangles) {
   vertices_.reserve(vertices);
   triangles_.reserve(triangles);
 }
 
+void MeshCollector::set_file_up(UpAxis up) {
+  T_mesh_file_ = turn_up(frame_.up.value_or(up));
+}
+
 void MeshCollector::add_vertex(const Eigen::Vector3d& p_file, const FilePlace& place) {
-  const Eigen::Vector3d p = unit_m_ * p_file;
-  if (!p_file.allFinite()) {
-    place.fail(fmt::format("the vertex is {}; expected finite coordinates", to_text(p_file)));
-  }
-  // Rounding to float may step onto the limit, which the mesh no longer takes.
-  const Eigen::Vector3f rounded = p.cast<float>();
-  if (!is_coordinate(rounded)) {
-    place.fail(
-        fmt::format("the vertex is {} with a unit of {} m; expected coordinates below "
-                    "{:g} m (is the unit right?)",
-                    to_text(p_file), unit_m_, kMaxCoordinate));
-  }
   if (vertices_.size() >= std::numeric_limits<std::uint32_t>::max()) {
     throw Error(ErrorCode::out_of_resources, place.text(),
                 "a mesh holds at most 4294967295 vertices");
   }
-  vertices_.push_back(rounded);
+  // Rounding to float may step onto the limit, which the mesh no longer takes.
+  const Eigen::Vector3f rounded = (T_mesh_file_ * (frame_.unit_m * p_file)).cast<float>();
+  if (p_file.allFinite() && is_coordinate(rounded)) {
+    vertices_.push_back(rounded);
+    return;
+  }
+  bad_vertices_.push_back({std::uint32_t(vertices_.size()), p_file, place});
+  vertices_.push_back(Eigen::Vector3f::Zero());
+}
+
+void MeshCollector::fail_at(const BadVertex& bad) const {
+  if (!bad.p_file.allFinite()) {
+    bad.place.fail(
+        fmt::format("the vertex is {}; expected finite coordinates", to_text(bad.p_file)));
+  }
+  bad.place.fail(
+      fmt::format("the vertex is {} with a unit of {} m; expected coordinates below "
+                  "{:g} m (is the unit right?)",
+                  to_text(bad.p_file), frame_.unit_m, kMaxCoordinate));
 }
 
 void MeshCollector::add_polygon(std::span<const std::int64_t> corners, std::uint64_t vertex_count,
                                 const FilePlace& place) {
-  if (corners.size() < 3) {
-    place.fail(fmt::format("the face has {} corners; expected 3 or more", corners.size()));
-  }
   for (const std::int64_t index : corners) {
     if (index >= 0 && std::uint64_t(index) < vertex_count) continue;
     place.fail(
@@ -46,10 +69,34 @@ void MeshCollector::add_polygon(std::span<const std::int64_t> corners, std::uint
                     "{}, the number of vertices",
                     index, vertex_count));
   }
-  for (std::size_t i = 2; i < corners.size(); ++i) {
+  if (corners.size() < 3) {
+    ++small_faces_;
+  } else if (corners.size() == 3 && waiting_.empty()) {
     triangles_.push_back(
-        {std::uint32_t(corners[0]), std::uint32_t(corners[i - 1]), std::uint32_t(corners[i])});
+        {std::uint32_t(corners[0]), std::uint32_t(corners[1]), std::uint32_t(corners[2])});
+  } else {
+    waiting_.push_back(std::uint32_t(corners.size()));
+    for (const std::int64_t index : corners) waiting_.push_back(std::uint32_t(index));
+    // Not where the file's faces come before its vertices.
+    if (vertex_count == vertices_.size()) triangulate_waiting();
   }
+}
+
+void MeshCollector::triangulate_waiting() {
+  std::size_t i = 0;
+  while (i < waiting_.size()) {
+    const std::span<const std::uint32_t> corners = std::span(waiting_).subspan(i + 1, waiting_[i]);
+    // Convex polygons take none; a few hundred for each corner are enough for what people draw.
+    tests_left_ += 200 * corners.size();
+    if (!triangulate(corners, vertices_, tests_left_, triangles_)) {
+      throw bad_input(file_,
+                      fmt::format("a polygon of {} corners is too intricate to be cut into "
+                                  "triangles; triangulate the mesh in the program that made it",
+                                  corners.size()));
+    }
+    i += 1 + corners.size();
+  }
+  waiting_.clear();
 }
 
 void MeshCollector::add_triangle_of_last_vertices() {
@@ -57,10 +104,49 @@ void MeshCollector::add_triangle_of_last_vertices() {
   triangles_.push_back({end - 3, end - 2, end - 1});
 }
 
+void MeshCollector::add_remark(std::string remark) {
+  remarks_.push_back(file_ + ": " + std::move(remark));
+}
+
+/// A face that uses a bad vertex is an error; those that no face uses go.
+void MeshCollector::remove_bad_vertices() {
+  if (bad_vertices_.empty()) return;
+  constexpr std::uint32_t kGood = 0, kBad = 1;
+  std::vector<std::uint32_t> index(vertices_.size(), kGood);
+  for (const BadVertex& bad : bad_vertices_) index[bad.index] = kBad;
+  for (const Triangle& triangle : triangles_) {
+    for (const std::uint32_t corner : triangle) {
+      if (index[corner] == kGood) continue;
+      fail_at(*std::ranges::lower_bound(bad_vertices_, corner, {}, &BadVertex::index));
+    }
+  }
+  std::uint32_t kept = 0;
+  for (std::size_t i = 0; i < vertices_.size(); ++i) {
+    if (index[i] == kBad) continue;
+    vertices_[kept] = vertices_[i];
+    index[i] = kept++;
+  }
+  vertices_.resize(kept);
+  for (Triangle& triangle : triangles_) {
+    for (std::uint32_t& corner : triangle) corner = index[corner];
+  }
+  const BadVertex& first = bad_vertices_.front();
+  remarks_.push_back(fmt::format(
+      "{}: {} {} that no face uses {} no point, the first being {}; left out", first.place.text(),
+      bad_vertices_.size(), bad_vertices_.size() == 1 ? "vertex" : "vertices",
+      bad_vertices_.size() == 1 ? "is" : "are", to_text(first.p_file)));
+}
+
 TriangleMesh MeshCollector::finish() && {
+  triangulate_waiting();
+  remove_bad_vertices();
+  if (small_faces_ > 0) {
+    add_remark(fmt::format("{} {} fewer than three corners; left out", small_faces_,
+                           small_faces_ == 1 ? "face has" : "faces have"));
+  }
   const std::size_t found = triangles_.size();
   TriangleMesh mesh(std::move(vertices_), std::move(triangles_), file_);
-  if (!mesh.empty()) return mesh;
+  if (!mesh.empty()) return mesh.with_remarks(std::move(remarks_));
   throw bad_input(file_, found == 0 ? "has no triangles; expected at least one"
                                     : fmt::format("has {} triangles, none of them with an area; "
                                                   "expected at least one",

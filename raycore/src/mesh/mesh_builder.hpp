@@ -6,41 +6,74 @@
 #include <vector>
 
 #include "mesh/file_place.hpp"
-#include "vantage/raycore/triangle_mesh.hpp"
+#include "vantage/raycore/mesh_io.hpp"
 
 namespace vantage::raycore::detail {
 
 /// Where the readers of mesh files put what they find: it checks each vertex and index where the
-/// place in the file is still known, turns units into metres, and splits polygons.
+/// place in the file is still known, turns units into metres and the file's up axis to z, and cuts
+/// polygons into triangles.
 class MeshCollector {
  public:
-  MeshCollector(std::string file, double unit_m) : file_(std::move(file)), unit_m_(unit_m) {}
+  MeshCollector(std::string file, const MeshFileFrame& frame)
+      : file_(std::move(file)), frame_(frame) {
+    set_file_up(UpAxis::z);
+  }
+  MeshCollector(std::string file, double unit_m)
+      : MeshCollector(std::move(file), MeshFileFrame{unit_m, {}}) {}
 
   const std::string& file() const { return file_; }
   std::size_t vertex_count() const { return vertices_.size(); }
+  std::size_t triangle_count() const { return triangles_.size(); }
   void reserve(std::size_t vertices, std::size_t triangles);
 
-  /// Coordinates in the file's unit; they are scaled before they are rounded to float.
-  /// @throws Error bad_input if one is not finite or too far out.
+  /// What the file or its format says of its axes; the user's word goes before it. For the vertices
+  /// that follow.
+  void set_file_up(UpAxis up);
+
+  /// Coordinates in the file's unit; they are scaled before they are rounded to float. One that is
+  /// not finite or too far out is an error only if a face uses it: `finish` says so.
+  /// @param place its `unit` is a string literal.
   void add_vertex(const Eigen::Vector3d& p_file, const FilePlace& place);
 
-  /// A fan around the polygon's first corner.
-  /// @throws Error bad_input if there are fewer than three corners, or for an index outside
-  /// 0 … `vertex_count` - 1; the file's vertices may follow its faces.
+  /// Fewer than three corners are no face: they are counted, and remarked in the end.
+  /// @throws Error bad_input for an index outside 0 … `vertex_count` - 1; the file's vertices may
+  /// follow its faces.
   void add_polygon(std::span<const std::int64_t> corners, std::uint64_t vertex_count,
                    const FilePlace& place);
 
   /// The last three vertices as one triangle.
   void add_triangle_of_last_vertices();
 
-  /// @throws Error bad_input if there is no triangle with an area.
+  /// Something odd that does no harm; without the file's name.
+  void add_remark(std::string remark);
+
+  /// @throws Error bad_input if there is no triangle with an area, a face uses a vertex that is not
+  /// finite or too far out, or a polygon is too intricate.
   TriangleMesh finish() &&;
 
  private:
+  /// A vertex that is no point.
+  struct BadVertex {
+    std::uint32_t index;
+    Eigen::Vector3d p_file;
+    FilePlace place;
+  };
+
+  [[noreturn]] void fail_at(const BadVertex& bad) const;
+  void triangulate_waiting();
+  void remove_bad_vertices();
+
   std::string file_;
-  double unit_m_;
+  MeshFileFrame frame_;
+  Eigen::Matrix3d T_mesh_file_;
   std::vector<Eigen::Vector3f> vertices_;
   std::vector<Triangle> triangles_;
+  std::vector<std::uint32_t> waiting_;      // polygons until all vertices are there: count, corners
+  std::uint64_t tests_left_ = 100'000'000;  // of `triangulate`
+  std::vector<BadVertex> bad_vertices_;
+  std::size_t small_faces_ = 0;
+  std::vector<std::string> remarks_;
 };
 
 }  // namespace vantage::raycore::detail

@@ -1,8 +1,12 @@
 #include "vantage/raycore/mesh_io.hpp"
 
 #include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <new>
+#include <stdexcept>
 
 #include "core/byte_order.hpp"
 #include "mesh/mesh_readers.hpp"
@@ -20,36 +24,66 @@ std::string lower_cased_ending(const std::filesystem::path& path) {
   return ending;
 }
 
-TriangleMesh read(const std::filesystem::path& path, double unit_m) {
+/// What people ask for that has no safe reader, by what it is called.
+[[noreturn]] void refuse_format(const std::filesystem::path& path, const std::string& ending) {
+  constexpr std::array<std::string_view, 6> kGeometry = {".step", ".stp",  ".iges",
+                                                         ".igs",  ".brep", ".sldprt"};
+  const bool geometry = std::ranges::find(kGeometry, ending) != kGeometry.end();
+  throw bad_input(
+      path.string(),
+      fmt::format(
+          "has the ending \"{}\"; expected a mesh: .stl, .ply, .obj, .off, .glb, .gltf (2.0), "
+          ".dae, .fbx, .3ds or .3mf; {}",
+          ending,
+          geometry ? "it is no mesh but CAD geometry: export it as STL from the CAD program"
+                   : "convert it to one of them, for example with Blender or MeshLab"));
+}
+
+TriangleMesh read(const std::filesystem::path& path, const MeshFileFrame& frame) {
+  using namespace raycore::detail;
+  const std::string ending = lower_cased_ending(path);
+  const bool for_assimp =
+      ending == ".dae" || ending == ".fbx" || ending == ".3ds" || ending == ".3mf";
   const std::vector<std::uint8_t> bytes = read_file(path);
   if (bytes.empty()) throw bad_input(path.string(), "is empty; expected a mesh");
-  raycore::detail::MeshCollector mesh(path.string(), unit_m);
-  const std::string ending = lower_cased_ending(path);
+  MeshCollector mesh(path.string(), frame);
   if (ending == ".stl") {
-    raycore::detail::read_stl(bytes, mesh);
+    read_stl(bytes, mesh);
   } else if (ending == ".ply") {
-    raycore::detail::read_ply(bytes, mesh);
+    read_ply(bytes, mesh);
   } else if (ending == ".obj") {
-    raycore::detail::read_obj(bytes, mesh);
+    read_obj(bytes, mesh);
+  } else if (ending == ".off") {
+    read_off(bytes, mesh);
+  } else if (ending == ".glb" || ending == ".gltf") {
+    read_gltf(bytes, path, mesh);
+  } else if (for_assimp) {
+    read_with_assimp(bytes, path, mesh);
   } else {
-    raycore::detail::read_with_assimp(path, mesh);
+    refuse_format(path, ending);
   }
   return std::move(mesh).finish();
 }
 
 }  // namespace
 
-TriangleMesh read_mesh(const std::filesystem::path& path, double unit_m) {
-  if (!std::isfinite(unit_m) || unit_m <= 0) {
+TriangleMesh read_mesh(const std::filesystem::path& path, const MeshFileFrame& frame) {
+  if (!std::isfinite(frame.unit_m) || frame.unit_m <= 0) {
     throw bad_input("unit_m", fmt::format("is {}; expected the size of the file's unit in metres, "
                                           "a finite number above 0",
-                                          unit_m));
+                                          frame.unit_m));
   }
   try {
-    return read(path, unit_m);
+    return read(path, frame);
   } catch (const std::bad_alloc&) {
     throw Error(ErrorCode::out_of_resources, path.string(), "does not fit into memory");
+  } catch (const std::length_error&) {
+    throw Error(ErrorCode::out_of_resources, path.string(), "does not fit into memory");
   }
+}
+
+TriangleMesh read_mesh(const std::filesystem::path& path, double unit_m) {
+  return read_mesh(path, MeshFileFrame{.unit_m = unit_m});
 }
 
 void write_ply(const std::filesystem::path& path, const TriangleMesh& mesh) {

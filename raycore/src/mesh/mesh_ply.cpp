@@ -11,6 +11,7 @@
 #include "mesh/mesh_readers.hpp"
 #include "mesh/ply_header.hpp"
 #include "mesh/text_scanner.hpp"
+#include "mesh/triangle_strip.hpp"
 
 namespace vantage::raycore::detail {
 
@@ -26,8 +27,8 @@ class PlyBody {
   /// How many values of a type the rest of the file can hold at most.
   virtual std::uint64_t room_for(PlyType type) const = 0;
   virtual FilePlace place() const = 0;
-  /// Called last.
-  virtual void expect_end() = 0;
+  /// Whether more follows than a line's end. Called last.
+  virtual bool more_follows() = 0;
 };
 
 /// One element on each line.
@@ -40,7 +41,7 @@ class AsciiPlyBody : public PlyBody {
   void end_element() override;
   std::uint64_t room_for(PlyType type) const override;
   FilePlace place() const override { return text_.place(); }
-  void expect_end() override;
+  bool more_follows() override;
 
  private:
   bool skip_blank_lines();
@@ -59,7 +60,7 @@ class BinaryPlyBody : public PlyBody {
   void end_element() override {}
   std::uint64_t room_for(PlyType type) const override { return left_.size() / size_of(type); }
   FilePlace place() const override { return place_; }
-  void expect_end() override;
+  bool more_follows() override;
 
  private:
   template <class T>
@@ -101,8 +102,8 @@ std::uint64_t AsciiPlyBody::room_for(PlyType) const {
   return (end_ - text_.position() + 1) / 2;
 }
 
-void AsciiPlyBody::expect_end() {
-  if (skip_blank_lines()) text_.fail("expected the file's end: the header claims no more elements");
+bool AsciiPlyBody::more_follows() {
+  return skip_blank_lines();
 }
 
 void BinaryPlyBody::begin_element(const PlyElement& element, std::uint64_t number) {
@@ -140,13 +141,8 @@ double BinaryPlyBody::value(PlyType type) {
   place_.fail("a property of no known type");
 }
 
-void BinaryPlyBody::expect_end() {
-  // Some programs end a binary file with a line end as well.
-  if (left_.size() <= 2) return;
-  throw bad_input(std::string(place_.file),
-                  fmt::format("{} bytes follow the last element that the header claims; its counts "
-                              "are wrong or the file is damaged",
-                              left_.size()));
+bool BinaryPlyBody::more_follows() {
+  return left_.size() > 2;  // some programs end a binary file with a line end as well
 }
 
 namespace {
@@ -177,8 +173,9 @@ std::size_t corner_property(const PlyElement& element, const std::string& file) 
     if (property.count_type && property.type < PlyType::float32) return i;
   }
   throw bad_input(file,
-                  "the header's element \"face\" has no property \"vertex_indices\" that is a "
-                  "list of integers");
+                  fmt::format("the header's element {} has no property \"vertex_indices\" that is "
+                              "a list of integers",
+                              in_quotes(element.name)));
 }
 
 /// Reads a list's length and checks it against what the file can still hold.
@@ -212,7 +209,9 @@ void read_vertices(PlyBody& body, const PlyElement& element, MeshCollector& mesh
         p_file[axes[k]] = body.value(element.properties[k].type);
       }
     }
-    mesh.add_vertex(p_file, body.place());
+    FilePlace place = body.place();
+    if (place.unit != "line") place.unit = "vertex";  // the header goes, the collector stays
+    mesh.add_vertex(p_file, place);
     body.end_element();
   }
 }
@@ -244,6 +243,33 @@ void read_faces(PlyBody& body, const PlyElement& element, std::uint64_t vertex_c
   }
 }
 
+/// Long strips, one after the other in each list, parted by -1. Their triangles change direction
+/// one by one.
+void read_strips(PlyBody& body, const PlyElement& element, std::uint64_t vertex_count,
+                 MeshCollector& mesh) {
+  const std::size_t used = corner_property(element, mesh.file());
+  for (std::uint64_t i = 0; i < element.count; ++i) {
+    body.begin_element(element, i);
+    for (std::size_t k = 0; k < element.properties.size(); ++k) {
+      const PlyProperty& property = element.properties[k];
+      if (k != used) {
+        skip(body, property);
+        continue;
+      }
+      TriangleStrip strip;
+      for (std::uint64_t left = read_length(body, property); left > 0; --left) {
+        const std::int64_t index = read_index(body, property.type);
+        if (index == -1) {
+          strip = {};
+        } else if (const auto triangle = strip.next(index)) {
+          mesh.add_polygon(*triangle, vertex_count, body.place());
+        }
+      }
+    }
+    body.end_element();
+  }
+}
+
 void read_elements(PlyBody& body, const PlyHeader& header, MeshCollector& mesh) {
   const PlyElement* vertices = header.find("vertex");
   if (vertices == nullptr) throw bad_input(mesh.file(), "the header has no element \"vertex\"");
@@ -252,6 +278,8 @@ void read_elements(PlyBody& body, const PlyHeader& header, MeshCollector& mesh) 
       read_vertices(body, element, mesh);
     } else if (element.name == "face") {
       read_faces(body, element, vertices->count, mesh);
+    } else if (element.name == "tristrips") {
+      read_strips(body, element, vertices->count, mesh);
     } else {
       for (std::uint64_t i = 0; i < element.count; ++i) {
         body.begin_element(element, i);
@@ -260,7 +288,10 @@ void read_elements(PlyBody& body, const PlyHeader& header, MeshCollector& mesh) 
       }
     }
   }
-  body.expect_end();
+  if (body.more_follows()) {
+    mesh.add_remark(
+        "more follows the last element that the header claims; left out (is a count wrong?)");
+  }
 }
 
 }  // namespace

@@ -15,9 +15,16 @@ namespace vantage::raycore::detail {
 void read_stl(std::span<const std::uint8_t> bytes, MeshCollector& mesh);
 void read_ply(std::span<const std::uint8_t> bytes, MeshCollector& mesh);
 void read_obj(std::span<const std::uint8_t> bytes, MeshCollector& mesh);
+void read_off(std::span<const std::uint8_t> bytes, MeshCollector& mesh);
 
-/// For other formats. Takes the path, as a scene may name further files beside it.
-void read_with_assimp(const std::filesystem::path& path, MeshCollector& mesh);
+/// glTF 2.0, as text or binary (GLB): the bytes tell. Takes the path for the buffers in files
+/// beside it.
+void read_gltf(std::span<const std::uint8_t> bytes, const std::filesystem::path& path,
+               MeshCollector& mesh);
+
+/// For DAE, FBX, 3DS and 3MF. Takes the path for the format, and for files beside it.
+void read_with_assimp(std::span<const std::uint8_t> bytes, const std::filesystem::path& path,
+                      MeshCollector& mesh);
 
 inline std::string_view as_text(std::span<const std::uint8_t> bytes) {
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};

@@ -25,32 +25,48 @@ bool equal_ignoring_case(std::string_view word, std::string_view lower) {
   });
 }
 
-/// Many binary files begin with "solid", too: the size tells, and no text has a zero byte.
+/// Many binary files begin with "solid", too: the size tells, and no text has a zero byte, unless
+/// it comes behind the end.
 bool is_binary(std::span<const std::uint8_t> bytes) {
   if (bytes.size() >= kHeaderBytes && stated_size(bytes) == bytes.size()) return true;
   TextScanner text(as_text(bytes), "");
   if (!equal_ignoring_case(text.word_anywhere(), "solid")) return true;
+  text.next_line();
+  TextScanner ahead = text;
+  const std::string_view next = ahead.word_anywhere();
+  if (equal_ignoring_case(next, "facet") || equal_ignoring_case(next, "endsolid")) return false;
   return std::ranges::find(bytes, 0) != bytes.end();
 }
 
-void check_binary_size(std::span<const std::uint8_t> bytes, const std::string& file) {
+/// The number of triangles. Bytes that follow them are none of a mesh's: padding, or what a program
+/// leaves there for itself.
+std::size_t checked_count(std::span<const std::uint8_t> bytes, MeshCollector& mesh) {
   if (bytes.size() < kHeaderBytes) {
-    throw bad_input(file, fmt::format("has {} bytes and does not begin with \"solid\"; expected an "
-                                      "STL file, which has {} bytes or more",
-                                      bytes.size(), kHeaderBytes));
+    throw bad_input(mesh.file(),
+                    fmt::format("has {} bytes and does not begin with \"solid\"; expected an "
+                                "STL file, which has {} bytes or more",
+                                bytes.size(), kHeaderBytes));
   }
   const std::uint64_t stated = stated_size(bytes);
-  if (stated == bytes.size()) return;
-  throw bad_input(file + ", byte 80",
-                  fmt::format("states {} triangles, which take {} bytes; the file has {} and is "
-                              "{}, or no STL file",
-                              (stated - kHeaderBytes) / kTriangleBytes, stated, bytes.size(),
-                              stated > bytes.size() ? "truncated" : "too long"));
+  const std::uint64_t count = (stated - kHeaderBytes) / kTriangleBytes;
+  if (stated > bytes.size() || (count == 0 && bytes.size() > kHeaderBytes)) {
+    throw bad_input(
+        mesh.file() + ", byte 80",
+        fmt::format("states {} triangles, which take {} bytes; the file has {} and is "
+                    "{}, or no STL file",
+                    count, stated, bytes.size(), stated > bytes.size() ? "truncated" : "too long"));
+  }
+  if (stated < bytes.size()) {
+    mesh.add_remark(
+        fmt::format("{} bytes follow the last of the {} triangles that it states; left "
+                    "out",
+                    bytes.size() - stated, count));
+  }
+  return std::size_t(count);
 }
 
 void read_binary(std::span<const std::uint8_t> bytes, MeshCollector& mesh) {
-  check_binary_size(bytes, mesh.file());
-  const std::size_t count = (bytes.size() - kHeaderBytes) / kTriangleBytes;
+  const std::size_t count = checked_count(bytes, mesh);
   mesh.reserve(3 * count, count);
   for (std::size_t i = 0; i < count; ++i) {
     const std::uint8_t* corner = bytes.data() + kHeaderBytes + i * kTriangleBytes + 12;
@@ -113,13 +129,16 @@ void read_solid(TextScanner& text, MeshCollector& mesh) {
 void read_stl(std::span<const std::uint8_t> bytes, MeshCollector& mesh) {
   if (is_binary(bytes)) return read_binary(bytes, mesh);
   TextScanner text(as_text(bytes), mesh.file());
-  std::string_view word = text.word_anywhere();
-  while (!word.empty()) {
-    if (!equal_ignoring_case(word, "solid")) {
-      text.fail(fmt::format("{} found; expected \"solid\" or the end", in_quotes(word)));
-    }
+  while (equal_ignoring_case(text.word_anywhere(), "solid")) {
     read_solid(text, mesh);
-    word = text.word_anywhere();
+    const TextScanner behind = text;
+    const std::string_view word = text.word_anywhere();
+    if (!word.empty() && !equal_ignoring_case(word, "solid")) {
+      mesh.add_remark(fmt::format("line {} begins with {} behind the last solid; left out",
+                                  text.place().number, in_quotes(word)));
+      return;
+    }
+    text = behind;
   }
 }
 

@@ -34,8 +34,7 @@ std::string_view TextScanner::word() {
     }
   }
   const std::size_t start = position_;
-  while (position_ < text_.size() && text_[position_] != '\n' && !at_blank() &&
-         continuation_size() == 0) {
+  while (position_ < text_.size() && !at_line_end() && !at_blank() && continuation_size() == 0) {
     ++position_;
   }
   return text_.substr(start, position_ - start);
@@ -63,27 +62,32 @@ double TextScanner::number(std::string_view what) {
 }
 
 bool TextScanner::next_line() {
-  const std::size_t end = text_.find('\n', position_);
-  if (end == std::string_view::npos) {
-    position_ = text_.size();
-    return false;
+  for (; position_ < text_.size(); ++position_) {
+    if (!at_line_end()) continue;
+    ++position_;
+    ++line_;
+    return true;
   }
-  position_ = end + 1;
-  ++line_;
-  return true;
+  return false;
 }
 
 /// The size of a backslash and the line's end behind it; 0 if there is none here.
 std::size_t TextScanner::continuation_size() const {
   if (text_[position_] != '\\') return 0;
   const std::string_view rest = text_.substr(position_ + 1, 2);
-  if (rest.starts_with('\n')) return 2;
-  return rest == "\r\n" ? 3 : 0;
+  if (rest == "\r\n") return 3;
+  return rest.starts_with('\n') || rest.starts_with('\r') ? 2 : 0;
 }
 
 bool TextScanner::at_blank() const {
   const char c = text_[position_];
-  return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f';
+  return c == ' ' || c == '\t' || c == '\v' || c == '\f' || (c == '\r' && !at_line_end());
+}
+
+bool TextScanner::at_line_end() const {
+  const char c = text_[position_];
+  if (c != '\r') return c == '\n';
+  return position_ + 1 == text_.size() || text_[position_ + 1] != '\n';
 }
 
 }  // namespace vantage::raycore::detail

@@ -17,7 +17,8 @@ std::string in_quotes(std::string_view word);
 std::optional<std::int64_t> to_integer(std::string_view text);
 
 /// Takes a text apart into lines and words and knows which line it is at. Does not own the text.
-/// A line that ends with a backslash goes on in the next one, as in OBJ.
+/// A line ends with LF, CR LF or CR. One that ends with a backslash goes on in the next one, as in
+/// OBJ.
 class TextScanner {
  public:
   TextScanner(std::string_view text, std::string_view file) : text_(text), file_(file) {}
@@ -43,6 +44,7 @@ class TextScanner {
  private:
   std::size_t continuation_size() const;
   bool at_blank() const;
+  bool at_line_end() const;
 
   std::string_view text_;
   std::string_view file_;

@@ -95,6 +95,7 @@ TriangleMesh TriangleMesh::transformed(const Pose& T_target_mesh) const {
   }
   TriangleMesh result(std::move(moved), triangles_, "transformed mesh");
   result.dropped_degenerate_ += dropped_degenerate_;
+  result.remarks_ = remarks_;
   return result;
 }
 
@@ -110,6 +111,15 @@ TriangleMesh TriangleMesh::scaled(double factor) const {
   }
   TriangleMesh result(std::move(resized), triangles_, "scaled mesh");
   result.dropped_degenerate_ += dropped_degenerate_;
+  result.remarks_ = remarks_;
+  return result;
+}
+
+TriangleMesh TriangleMesh::with_remarks(std::vector<std::string> remarks) const {
+  TriangleMesh result = *this;
+  result.remarks_ = remarks.empty()
+                        ? nullptr
+                        : std::make_shared<const std::vector<std::string>>(std::move(remarks));
   return result;
 }
 

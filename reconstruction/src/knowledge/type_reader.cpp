@@ -60,7 +60,9 @@ ObjectType TypeReader::read(const Value& value, const std::filesystem::path& fol
   ObjectType type{.name = value["name"].as<std::string>()};
   type.place = value.place();
   type.is_a = value.get("is_a", type.is_a);
-  type.mesh = std::make_shared<const TriangleMesh>(read_shape(value["shape"], folder, files_));
+  type.mesh = std::make_shared<const TriangleMesh>(
+      value.has("mesh") ? read_mesh_value(value["mesh"], folder, files_)
+                        : read_shape(value["shape"], folder, files_));
   if (value.has("color")) type.color = read_color(value["color"]);
   if (value.has("symmetries")) type.symmetries = read_symmetries(value["symmetries"]);
   if (value.has("features")) type.features = read_features(value);
@@ -69,7 +71,8 @@ ObjectType TypeReader::read(const Value& value, const std::filesystem::path& fol
 
 std::vector<ObjectFeature> TypeReader::read_features(const Value& type) {
   std::optional<Eigen::Vector3d> box_size_m;
-  if (type["shape"].has("box")) box_size_m = type["shape"]["box"]["size_m"].vector();
+  if (type.has("shape") && type["shape"].has("box"))
+    box_size_m = type["shape"]["box"]["size_m"].vector();
   std::vector<ObjectFeature> features;
   for (const Value& value : type["features"].elements()) {
     if (value["type"].as<std::string>() != "aruco") {

@@ -154,6 +154,22 @@ TEST_CASE("boxes and meshes become objects at their poses") {
   CHECK(cell.files == std::vector{folder / "cell.yaml", folder / "meshes/arm.stl"});
 }
 
+TEST_CASE("a mesh may be named with its unit and its up axis") {
+  TemporaryFolder folder;
+  folder.write("arm.stl", kStl);
+  const Workcell cell =
+      load(folder, kAreaLine +
+                       "static_structures:\n"
+                       "  - {name: a, mesh: {file: arm.stl, unit_m: 0.001}}\n"
+                       "  - {name: b, mesh: {file: arm.stl, up: -x}, unit_m: 0.001}\n"
+                       "  - {name: c, shape: {mesh: arm.stl}}\n");
+  CHECK(cell.static_structures[0].mesh->corner(0, 1) == Eigen::Vector3f(1, 0, 0));
+  CHECK(cell.static_structures[1].mesh->corner(0, 1) == Eigen::Vector3f(0, 0, -1));
+  CHECK(cell.static_structures[2].mesh->corner(0, 1) == Eigen::Vector3f(1000, 0, 0));
+  expect_text_refused("known_objects:\n  - {name: a, mesh: {file: b.stl, unit_m: 1}, unit_m: 1}\n",
+                      "cell.yaml:3: known_objects[0].unit_m", {"remove one"});
+}
+
 TEST_CASE("a workcell that is missing or no YAML is refused") {
   TemporaryFolder folder;
   expect_refused([&] { load_workcell(folder / "cell.yaml"); }, "cell.yaml", {"o such file"});

@@ -71,7 +71,6 @@ TEST_CASE("ASCII STL: every kind of damage is found with its line") {
   expect_refused("a.stl", replaced(whole, "endloop", "vertex 0 0 0"), "a.stl:7",
                  "\"vertex\" found; expected \"endloop\"");
   expect_refused("a.stl", replaced(whole, "  facet", "  face"), "a.stl:2", "\"face\" found");
-  expect_refused("a.stl", whole + "more", "a.stl:31", "\"more\" found; expected \"solid\"");
   expect_refused("a.stl", whole.substr(0, whole.find("endsolid")), "a.stl:30", "the file ends");
   expect_refused("a.stl", whole.substr(0, whole.find("endloop")), "a.stl:7", "the file ends");
   expect_refused("a.stl", "solid nothing\nendsolid nothing\n", "a.stl", "has no triangles");
@@ -118,7 +117,6 @@ TEST_CASE("PLY: a header that claims more than the file holds is refused before 
       expect_refused("a.ply", replaced(whole, "face 4", std::string("face ") + count), "a.ply",
                      "of the element \"face\"");
     }
-    expect_refused("a.ply", replaced(whole, "edge 2", "edge 1"), "a.ply", "the header claims");
     expect_refused("a.ply", replaced(whole, "property uint32 length\n", ""), "a.ply",
                    "the element \"edge\" has no properties");
     expect_refused("a.ply", whole.substr(0, whole.size() - 3), "a.ply", "truncated");
@@ -141,8 +139,6 @@ TEST_CASE("ASCII PLY: every kind of damage is found with its line") {
   expect_refused("a.ply", replaced(whole, "3 1 2 3", "3 1 2 nan"), "a.ply:22", "vertex nan");
   expect_refused("a.ply", replaced(whole, "3 1 2 3", "-3 1 2 3"), "a.ply:22", "length -3");
   expect_refused("a.ply", replaced(whole, "3 1 2 3", "1e18 1 2 3"), "a.ply:22", "length 1e+18");
-  expect_refused("a.ply", replaced(whole, "3 1 2 3", "2 1 2"), "a.ply:22", "has 2 corners");
-  expect_refused("a.ply", whole + "3\n", "a.ply:26", "expected the file's end");
 }
 
 TEST_CASE("binary PLY: every kind of damage is found with its element") {
@@ -164,7 +160,6 @@ TEST_CASE("binary PLY: every kind of damage is found with its element") {
     bytes = replaced(whole, "list uchar int", "list char int");
     expect_refused("a.ply", overwritten(bytes, face_1 - 1 + 18, "\xfd"), "a.ply, face 1",
                    "length -3");
-    expect_refused("a.ply", whole + "more", "a.ply", "4 bytes follow");
     expect_refused("a.ply", whole.substr(0, whole.size() - 1), "a.ply, edge 1", "truncated");
   }
 }
@@ -179,7 +174,6 @@ TEST_CASE("OBJ: every kind of damage is found with its line") {
                  "vertex 5; there are 4 vertices before this line");
   expect_refused("a.obj", replaced(whole, "f 1 3 2", "f 1 3 -5"), "a.obj:10", "vertex -5");
   expect_refused("a.obj", replaced(whole, "f 1 3 2", "f 1 3 0"), "a.obj:10", "count from 1");
-  expect_refused("a.obj", replaced(whole, "f 1 3 2", "f 1 3"), "a.obj:10", "has 2 corners");
   expect_refused("a.obj", replaced(whole, "f 1 3 2", "f 1 3 99999999999999999999"), "a.obj:10",
                  "99999999999999999999");
   for (const char* corner : {"2/a", "2/1/1/1", "2.5", "/1", "2x"}) {

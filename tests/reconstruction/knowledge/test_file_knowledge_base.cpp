@@ -1,4 +1,5 @@
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 
 #include <set>
 #include <string>
@@ -127,8 +128,30 @@ TEST_CASE("a mesh file is read relative to the file that names it") {
   CHECK(base.files() == std::vector{folder / "types.yaml", folder / "tri.stl"});
 }
 
+TEST_CASE("a type's mesh is named as a workcell's is") {
+  TemporaryFolder folder;
+  folder.write("tri.stl",
+               "solid t\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 4 0 0\n"
+               "vertex 0 2 0\nendloop\nendfacet\nendsolid t\n");
+  for (const char* mesh :
+       {"mesh: tri.stl", "shape: {mesh: tri.stl}", "mesh: {file: tri.stl, up: z}",
+        "shape: {mesh: {file: tri.stl, unit_m: 1}}"}) {
+    CAPTURE(mesh);
+    const FileKnowledgeBase base = load(folder, type_text(fmt::format("{{name: a, {}}}", mesh)));
+    CHECK(bounds_of(*base.types()[0]->mesh).sizes() == Eigen::Vector3d(4, 2, 0));
+  }
+  const FileKnowledgeBase standing =
+      load(folder, type_text("{name: a, mesh: {file: tri.stl, unit_m: 0.5, up: y}}"));
+  CHECK(bounds_of(*standing.types()[0]->mesh).sizes() == Eigen::Vector3d(2, 0, 1));
+  expect_type_refused("{name: a, mesh: {file: tri.stl, up: up}}", "object_types[0].mesh.up",
+                      {"\"-z\""});
+  expect_type_refused("{name: a, mesh: {file: \"\"}}", "object_types[0].mesh.file", {"not empty"});
+  expect_type_refused("{name: a, mesh: .}", "object_types[0].mesh", {"is a folder"});
+}
+
 TEST_CASE("a type that is none is refused") {
-  expect_type_refused("{name: a}", "types.yaml:2: object_types[0].shape", {"missing"});
+  expect_type_refused("{name: a}", "types.yaml:2: object_types[0]",
+                      {"exactly one of the keys \"shape\", \"mesh\""});
   expect_type_refused("{" + kCubeShape + "}", "object_types[0].name", {"missing"});
   expect_type_refused("{name: a, shape: {}}", "types.yaml:2: object_types[0].shape",
                       {"exactly one of the keys \"box\", \"cylinder\""});

@@ -4,6 +4,7 @@
 
 #include "carve/lattice_view.hpp"
 #include "classify/fuse_cameras.hpp"
+#include "objects/float_resolution.hpp"
 #include "objects/known_objects.hpp"
 
 namespace vantage {
@@ -76,6 +77,7 @@ std::shared_ptr<const StateGrid> carve(std::span<const VisibilityMesh> lattices,
                                        const StopToken& stop) {
   for (const VisibilityMesh& lattice : lattices) lattice.check();
   volume::detail::check_meshes(known);
+  volume::detail::check_float_resolution(known, geometry);
   const volume::detail::GridFrame frame(geometry);
   const Pose T_grid_world = Pose::from_translation(-geometry.origin());
   stop.expect(lattices.size() * frame.layout.chunk_count());

@@ -10,6 +10,7 @@
 #include "classify/camera_visibility.hpp"
 #include "classify/depth_integration.hpp"
 #include "classify/fuse_cameras.hpp"
+#include "objects/float_resolution.hpp"
 #include "objects/known_objects.hpp"
 #include "vantage/raycore/error.hpp"
 
@@ -26,9 +27,11 @@ void check_depth(const PinholeCamera& camera, const std::shared_ptr<const DepthI
   if (depth != nullptr) PosedDepth(camera, depth, "camera " + name);
 }
 
-const WorldModel& checked(const WorldModel& world, const VolumeOptions& options) {
+const WorldModel& checked(const WorldModel& world, const GridGeometry& geometry,
+                          const VolumeOptions& options) {
   options.check();
   volume::detail::check_meshes(world);
+  volume::detail::check_float_resolution(world, geometry);
   for (const DepthCamera& camera : world.cameras) {
     check_depth(camera.camera, camera.depth, camera.name);
   }
@@ -68,7 +71,7 @@ struct ShadowVolume::Impl {
         options(o),
         T_grid_world(Pose::from_translation(-g.origin())),
         frame(g),
-        structures(checked(world, o).static_structures),
+        structures(checked(world, g, o).static_structures),
         known(std::make_shared<const KnownObjects>(world, frame, T_grid_world, stop)),
         known_complete(!stop.stop_requested()),
         fusion(g) {
@@ -188,6 +191,7 @@ void ShadowVolume::move_camera(std::size_t camera, const Pose& T_world_cam,
 void ShadowVolume::set_objects(std::vector<KnownObject> objects, const StopToken& stop) {
   const WorldModel world{std::move(objects), impl_->structures, {}};
   volume::detail::check_meshes(world);
+  volume::detail::check_float_resolution(world, impl_->geometry);
   const bool complete_before = impl_->known_complete;
   const auto before = impl_->known;
   impl_->known = std::make_shared<const KnownObjects>(

@@ -4,23 +4,50 @@
 #include <tbb/parallel_for.h>
 
 #include <map>
+#include <optional>
+#include <set>
 
 #include "vantage/raycore/error.hpp"
 
 namespace vantage::volume::detail {
 namespace {
 
-std::string open_mesh_warning(const KnownObject& object, const MeshTopology& topology) {
+/// Below this share of undecided voxels an open mesh is a closed one with cracks.
+constexpr double kHardlyAny = 1e-3;
+
+/// Nothing to say of an open mesh whose inside is as good as certain.
+std::optional<std::string> open_mesh_warning(const KnownObject& object,
+                                             const MeshTopology& topology,
+                                             const ObjectVoxels& voxels) {
+  const double share = voxels.wound > 0 ? double(voxels.ambiguous) / double(voxels.wound) : 0;
+  if (topology.sheets.empty() && share < kHardlyAny) return std::nullopt;
   std::string text = fmt::format(
       "object {}: its mesh is not closed ({} of its {} edges belong to an odd number of "
-      "triangles), "
-      "so it has no inside: only the voxels at its surface count as occupied",
-      object.name, topology.unmatched_edges, topology.edges.size());
+      "triangles); "
+      "its inside is where its winding number is above one half, which is ambiguous (0.25 to 0.75) "
+      "for {:.0f} % of the voxels in question; {} of its {} triangles are sheets that bound no "
+      "inside: close the mesh if it is meant to be solid",
+      object.name, topology.unmatched_edges, topology.edges.size(), 100 * share,
+      topology.sheets.size(), topology.solid->triangles.size());
   if (object.mesh->dropped_degenerate() > 0) {
     text += fmt::format(". {} faces without area were dropped: if they closed it, repair the mesh",
                         object.mesh->dropped_degenerate());
   }
   return text;
+}
+
+/// What is odd about a mesh wherever it stands.
+void add_mesh_warnings(const KnownObject& object, const MeshTopology& topology,
+                       std::vector<std::string>& warnings) {
+  for (const std::string& remark : object.mesh->remarks()) {
+    warnings.push_back(fmt::format("object {}: {}", object.name, remark));
+  }
+  if (topology.solid == nullptr || topology.solid->unexplained_pairs == 0) return;
+  warnings.push_back(
+      fmt::format("object {}: {} faces of its mesh look both ways and could not be told apart, so "
+                  "that parts of "
+                  "it may have lost their inside; remove the double faces",
+                  object.name, topology.solid->unexplained_pairs));
 }
 
 using Topologies = std::map<const TriangleMesh*, std::shared_ptr<const MeshTopology>>;
@@ -60,10 +87,11 @@ std::shared_ptr<const ObjectBody> body_before(const PlacedMesh& placed,
   return nullptr;
 }
 
-std::shared_ptr<const ObjectBody> body_of(const PlacedMesh& placed, const GridFrame& frame) {
+std::shared_ptr<const ObjectBody> body_of(const PlacedMesh& placed, const GridFrame& frame,
+                                          const StopToken& stop) {
   const PlacedTriangles mesh(placed);
   auto body = std::make_shared<ObjectBody>();
-  body->voxels = object_voxels(mesh, placed.topology->closure, frame.layout, frame.voxel_size_m);
+  body->voxels = object_voxels(placed, frame.layout, frame.voxel_size_m, stop);
   body->surface = surface_octants(mesh, frame.layout, frame.voxel_size_m);
   if (mesh.triangles.empty()) return body;
   for (const Eigen::Vector3f& vertex : mesh.vertices) body->bounds.extend(vertex.cast<double>());
@@ -92,17 +120,24 @@ KnownObjects::KnownObjects(const WorldModel& world, const GridFrame& frame,
     const std::shared_ptr<const MeshTopology>& topology = topologies.at(object->mesh.get());
     meshes.push_back({object->mesh, topology, T_grid_world * object->T_world_object});
     names.push_back(object->name);
-    if (topology->closure == Closure::open && !object->mesh->empty()) {
-      warnings.push_back(open_mesh_warning(*object, *topology));
-    }
   }
   bodies.resize(objects.size());
   tbb::parallel_for(std::size_t(0), objects.size(), [&](std::size_t i) {
     bodies[i] = body_before(meshes[i], before);
     if (bodies[i] != nullptr) return;
-    bodies[i] =
-        stop.stop_requested() ? std::make_shared<const ObjectBody>() : body_of(meshes[i], frame);
+    bodies[i] = stop.stop_requested() ? std::make_shared<const ObjectBody>()
+                                      : body_of(meshes[i], frame, stop);
   });
+  std::set<const TriangleMesh*> told;
+  for (std::size_t i = 0; i < objects.size(); ++i) {
+    const MeshTopology& topology = *meshes[i].topology;
+    if (told.insert(meshes[i].mesh.get()).second) {
+      add_mesh_warnings(*objects[i], topology, warnings);
+    }
+    if (topology.closure != Closure::open || objects[i]->mesh->empty()) continue;
+    const auto warning = open_mesh_warning(*objects[i], topology, bodies[i]->voxels);
+    if (warning) warnings.push_back(*warning);
+  }
   for (const std::shared_ptr<const ObjectBody>& body : bodies) {
     for (const ObjectVoxels::Block& block : body->voxels.blocks) {
       solid.set(block.block, solid.bits(block.block) | block.bits);

@@ -21,10 +21,16 @@ struct PlacedTriangles {
   std::vector<Eigen::Vector3f> vertices;
   const std::vector<Triangle>& triangles;
 
-  explicit PlacedTriangles(const PlacedMesh& placed) : triangles(placed.mesh->triangles()) {
-    vertices.reserve(placed.mesh->vertices().size());
-    for (const Eigen::Vector3f& p : placed.mesh->vertices()) {
-      vertices.push_back((placed.T_grid_mesh * p.cast<double>()).cast<float>());
+  explicit PlacedTriangles(const PlacedMesh& placed)
+      : PlacedTriangles(placed.mesh->vertices(), placed.mesh->triangles(), placed.T_grid_mesh) {}
+
+  /// @param triangles_in_mesh  have to outlive this.
+  PlacedTriangles(const std::vector<Eigen::Vector3f>& vertices_in_mesh,
+                  const std::vector<Triangle>& triangles_in_mesh, const Pose& T_grid_mesh)
+      : triangles(triangles_in_mesh) {
+    vertices.reserve(vertices_in_mesh.size());
+    for (const Eigen::Vector3f& p : vertices_in_mesh) {
+      vertices.push_back((T_grid_mesh * p.cast<double>()).cast<float>());
     }
   }
   const Eigen::Vector3f& corner(std::size_t triangle, std::size_t corner) const {

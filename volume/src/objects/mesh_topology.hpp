@@ -1,18 +1,14 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
+#include "objects/solid_surface.hpp"
+#include "objects/winding_number.hpp"
 #include "vantage/raycore/triangle_mesh.hpp"
 
 namespace vantage::volume::detail {
-
-/// What tells inside from outside.
-enum class Closure {
-  oriented,  ///< every edge is passed as often in one direction as in the other: winding numbers
-  even,      ///< every edge has an even number of triangles, but some look inwards: parity
-  open,      ///< neither: the mesh has no inside
-};
 
 /// An edge and the triangles at it. `right` is `kNoTriangle` unless exactly two triangles meet at
 /// the edge and pass it in opposite directions.
@@ -36,7 +32,17 @@ struct MeshTopology {
   Closure closure = Closure::open;
   std::vector<FacePlane> planes;  ///< of the triangles
 
+  /// What decides inside; null for a closed mesh as it is.
+  std::shared_ptr<const SolidSurface> solid;
+  /// Of an open surface, and those of its triangles that have no inside: on neither or on both of
+  /// their sides the winding number is that of an inside.
+  std::shared_ptr<const WindingNumber> winding;
+  std::vector<Triangle> sheets;
+
   explicit MeshTopology(const TriangleMesh& mesh);
+
+ private:
+  void decide_inside(const TriangleMesh& mesh, bool faces_are_paired);
 };
 
 }  // namespace vantage::volume::detail

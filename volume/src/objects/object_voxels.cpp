@@ -4,45 +4,13 @@
 #include <limits>
 #include <tuple>
 
+#include "objects/block_buffer.hpp"
 #include "objects/scan_lines.hpp"
 #include "objects/triangle_box.hpp"
+#include "objects/wound_voxels.hpp"
 
 namespace vantage::volume::detail {
 namespace {
-
-/// Numbers the cells of a range, x slowest.
-std::size_t index_in(const CellRange& range, const Eigen::Vector3i& cell) {
-  const Eigen::Vector3i c = cell - range.first, n = range.size();
-  return (std::size_t(c.x()) * std::size_t(n.y()) + std::size_t(c.y())) * std::size_t(n.z()) +
-         std::size_t(c.z());
-}
-
-/// A box of blocks that is filled voxel by voxel, then stripped of the empty ones.
-class BlockBuffer {
- public:
-  BlockBuffer(const BlockLayout& layout, const CellRange& voxels)
-      : layout_(layout),
-        range_{voxels.first / kBlockSide, (voxels.last.array() + (kBlockSide - 1)) / kBlockSide},
-        bits_(range_.count()) {}
-
-  void set(const Eigen::Vector3i& voxel) {
-    bits_[index_in(range_, voxel / kBlockSide)].set(offset_in_block(voxel));
-  }
-
-  ObjectVoxels finish() const {
-    ObjectVoxels result;
-    range_.for_each([&](const Eigen::Vector3i& block) {
-      const BlockBits& bits = bits_[index_in(range_, block)];
-      if (!bits.none()) result.blocks.push_back({layout_.index(block), bits});
-    });
-    return result;
-  }
-
- private:
-  const BlockLayout& layout_;
-  CellRange range_;
-  std::vector<BlockBits> bits_;
-};
 
 struct Bounds {
   Eigen::Vector3d low, high;
@@ -95,9 +63,7 @@ void for_each_cell_touched(const PlacedTriangles& mesh, double cell_size_m, cons
 void fill_inside(const PlacedTriangles& mesh, Closure closure, const CellRange& voxels,
                  double voxel_size_m, BlockBuffer& buffer) {
   std::vector<Crossing> crossings = scan_line_crossings(mesh, voxels, voxel_size_m);
-  std::sort(crossings.begin(), crossings.end(), [](const Crossing& a, const Crossing& b) {
-    return std::tuple(a.i, a.j, a.z) < std::tuple(b.i, b.j, b.z);
-  });
+  std::sort(crossings.begin(), crossings.end(), crosses_earlier);
   int winding = 0;
   for (std::size_t n = 0; n + 1 < crossings.size(); ++n) {
     const Crossing &here = crossings[n], &next = crossings[n + 1];
@@ -114,20 +80,37 @@ void fill_inside(const PlacedTriangles& mesh, Closure closure, const CellRange& 
   }
 }
 
+void fill_open(const PlacedMesh& placed, const PlacedTriangles& mesh, const CellRange& voxels,
+               double voxel_size_m, const StopToken& stop, BlockBuffer& buffer,
+               ObjectVoxels& counts) {
+  std::tie(counts.wound, counts.ambiguous) =
+      fill_wound(placed, mesh, voxels, voxel_size_m, stop, buffer);
+  const PlacedTriangles sheets(placed.topology->solid->vertices, placed.topology->sheets,
+                               placed.T_grid_mesh);
+  for_each_cell_touched(sheets, voxel_size_m, voxels,
+                        [&](const Eigen::Vector3i& voxel) { buffer.set(voxel); });
+}
+
 }  // namespace
 
-ObjectVoxels object_voxels(const PlacedTriangles& mesh, Closure closure, const BlockLayout& layout,
-                           double voxel_size_m) {
+ObjectVoxels object_voxels(const PlacedMesh& placed, const BlockLayout& layout, double voxel_size_m,
+                           const StopToken& stop) {
+  const MeshTopology& topology = *placed.topology;
+  const PlacedTriangles mesh = topology.solid == nullptr
+                                   ? PlacedTriangles(placed)
+                                   : PlacedTriangles(topology.solid->vertices,
+                                                     topology.solid->triangles, placed.T_grid_mesh);
   const CellRange voxels = cells_touched(Bounds(mesh), voxel_size_m, layout.voxels());
   if (mesh.triangles.empty() || voxels.empty()) return {};
   BlockBuffer buffer(layout, voxels);
-  if (closure == Closure::open) {
-    for_each_cell_touched(mesh, voxel_size_m, voxels,
-                          [&](const Eigen::Vector3i& voxel) { buffer.set(voxel); });
+  ObjectVoxels counts;
+  if (topology.closure == Closure::open) {
+    fill_open(placed, mesh, voxels, voxel_size_m, stop, buffer, counts);
   } else {
-    fill_inside(mesh, closure, voxels, voxel_size_m, buffer);
+    fill_inside(mesh, topology.closure, voxels, voxel_size_m, buffer);
   }
-  return buffer.finish();
+  counts.blocks = buffer.finish().blocks;
+  return counts;
 }
 
 SurfaceOctants surface_octants(const PlacedTriangles& mesh, const BlockLayout& layout,

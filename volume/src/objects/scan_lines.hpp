@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <tuple>
 #include <vector>
 
 #include "grid/blocks.hpp"
@@ -14,6 +15,11 @@ struct Crossing {
   int sign;  ///< +1 where the line enters (the triangle looks down), -1 where it leaves
   double z;  ///< metres from the grid's origin
 };
+
+/// Column by column, upwards.
+inline bool crosses_earlier(const Crossing& a, const Crossing& b) {
+  return std::tie(a.i, a.j, a.z) < std::tie(b.i, b.j, b.z);
+}
 
 /// All crossings of a mesh's triangles with the columns of a range, triangle by triangle. Which
 /// triangles a line meets is exact for the mesh's coordinates; z is rounded.

@@ -4,7 +4,9 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -40,6 +42,15 @@ class VANTAGE_API TriangleMesh {
   std::size_t dropped_degenerate() const noexcept { return dropped_degenerate_; }
   bool empty() const noexcept { return triangles_.empty(); }
 
+  /// What was odd about the file that the mesh comes from, for people; each is a sentence without a
+  /// full stop that begins with the place in the file. They stay with moved and scaled copies.
+  std::span<const std::string> remarks() const noexcept {
+    return remarks_ == nullptr ? std::span<const std::string>() : *remarks_;
+  }
+
+  /// The same mesh with remarks in place of those that it had.
+  TriangleMesh with_remarks(std::vector<std::string> remarks) const;
+
   /// Corner `corner` (0, 1, 2) of triangle `triangle`.
   const Eigen::Vector3f& corner(std::size_t triangle, int corner) const {
     return vertices_[triangles_[triangle][std::size_t(corner)]];
@@ -57,6 +68,7 @@ class VANTAGE_API TriangleMesh {
   std::vector<Eigen::Vector3f> vertices_;
   std::vector<Triangle> triangles_;
   std::size_t dropped_degenerate_ = 0;
+  std::shared_ptr<const std::vector<std::string>> remarks_;  // null: none
 };
 
 }  // namespace vantage
