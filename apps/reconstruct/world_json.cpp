@@ -47,6 +47,7 @@ Json camera_json(const BopImage& image, const CameraView& view, const CameraLoca
               {"fy", k.fy},
               {"cx", k.cx},
               {"cy", k.cy}}},
+            {"lens_model", d.model == LensModel::fisheye ? "fisheye" : "brown_conrady"},
             {"distortion", {d.k1, d.k2, d.p1, d.p2, d.k3, d.k4, d.k5, d.k6}}};
   for (const LocatedPose& other : location.alternatives) {
     json["alternatives"].push_back(located_json(other));

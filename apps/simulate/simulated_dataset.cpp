@@ -1,6 +1,7 @@
 #include "simulate/simulated_dataset.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -53,13 +54,18 @@ RawDepthImage to_counts(const DepthImage& depth, double depth_scale_mm) {
 
 /// The calibration file that OpenCV's tools read and write.
 std::string calibration_yaml(const Intrinsics& k, const Distortion& d) {
+  const bool fisheye = d.model == LensModel::fisheye;
+  const std::vector<double> brown = {d.k1, d.k2, d.p1, d.p2, d.k3},
+                            angles = {d.k1, d.k2, d.k3, d.k4};
+  const std::vector<double>& coefficients = fisheye ? angles : brown;
   return fmt::format(
-      "%YAML:1.0\n---\nimage_width: {}\nimage_height: {}\n"
+      "%YAML:1.0\n---\nimage_width: {}\nimage_height: {}\n{}"
       "camera_matrix: !!opencv-matrix\n   rows: 3\n   cols: 3\n   dt: d\n"
       "   data: [ {}, 0., {}, 0., {}, {}, 0., 0., 1. ]\n"
-      "distortion_coefficients: !!opencv-matrix\n   rows: 5\n   cols: 1\n   dt: d\n"
-      "   data: [ {}, {}, {}, {}, {} ]\n",
-      k.width, k.height, k.fx, k.cx, k.fy, k.cy, d.k1, d.k2, d.p1, d.p2, d.k3);
+      "distortion_coefficients: !!opencv-matrix\n   rows: {}\n   cols: 1\n   dt: d\n"
+      "   data: [ {} ]\n",
+      k.width, k.height, fisheye ? "fisheye_model: 1\n" : "", k.fx, k.cx, k.fy, k.cy,
+      coefficients.size(), fmt::join(coefficients, ", "));
 }
 
 void check_depth_range(const CellCamera& camera, double depth_scale_mm) {
@@ -108,8 +114,10 @@ void check_recording(const Workcell& workcell, const RecordingOptions& options) 
   options.depth.check("depth sensor");
   for (const CellCamera& camera : workcell.cameras) {
     check_depth_range(camera, options.depth_scale_mm);
+    const bool fisheye = options.color.distortion.model == LensModel::fisheye;
     const Lens lens(camera.camera.intrinsics(), options.color.distortion,
-                    "--distortion");  // or why it is none
+                    fisheye ? "--fisheye" : "--distortion");  // or why it is none
+    if (!lens.covers_image()) lens.sight(-0.5, -0.5, {});     // likewise
   }
 }
 

@@ -24,6 +24,10 @@ Json color_json(ColorSensor color) {
   const Distortion& d = color.distortion;
   Json json{{"samples_per_pixel", color.samples_per_pixel},
             {"distortion", {d.k1, d.k2, d.p1, d.p2, d.k3}}};
+  if (d.model == LensModel::fisheye) {
+    json["lens_model"] = "fisheye";
+    json["distortion"] = {d.k1, d.k2, d.k3, d.k4};
+  }
   json.update(to_json(fields_of(color)));
   return json;
 }

@@ -118,6 +118,19 @@ TEST_CASE("another gamma than sRGB's and ink that has run do not move the corner
   CHECK(look(inky, {}).rms() < 0.2);
 }
 
+TEST_CASE("through a fisheye lens, corners are right if the detector knows it") {
+  Camera camera;
+  camera.distortion = Distortion::fisheye(0.1, -0.05, 0.02, -0.004);
+  const PrintedBoard board = board_of("4X4_50", 0.05);
+  const CornerErrors unknowing = look(board, camera);
+  camera.knows_lens = true;
+  const CornerErrors knowing = look(board, camera);
+  CHECK(knowing.found == knowing.markers);
+  CHECK(knowing.rms() < 0.06);
+  CHECK(knowing.worst < 0.25);
+  CHECK(unknowing.rms() > 1.1 * knowing.rms());
+}
+
 TEST_CASE("through a strong lens, corners are right if the detector knows it") {
   Camera camera;
   camera.distortion.k1 = -0.25;
