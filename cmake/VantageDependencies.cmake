@@ -40,9 +40,10 @@ get_target_property(ceres_includes Ceres::ceres INTERFACE_INCLUDE_DIRECTORIES)
 target_include_directories(vantage_ceres SYSTEM INTERFACE ${ceres_includes})
 
 find_package(valijson REQUIRED)
-find_package(yaml-cpp REQUIRED)
-# yaml-cpp's target got a namespace in 0.8.
-set(VANTAGE_YAML yaml-cpp)
-if(TARGET yaml-cpp::yaml-cpp)
-  set(VANTAGE_YAML yaml-cpp::yaml-cpp)
-endif()
+
+# libyaml has neither a package file nor a find module.
+find_path(VANTAGE_YAML_INCLUDE yaml.h REQUIRED)
+find_library(VANTAGE_YAML_LIBRARY yaml REQUIRED)
+add_library(vantage_yaml INTERFACE)
+target_include_directories(vantage_yaml SYSTEM INTERFACE "${VANTAGE_YAML_INCLUDE}")
+target_link_libraries(vantage_yaml INTERFACE "${VANTAGE_YAML_LIBRARY}")

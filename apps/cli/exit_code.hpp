@@ -25,6 +25,8 @@ inline ExitCode exit_code_of(ErrorCode code) {
       return ExitCode::no_feasible_view;
     case ErrorCode::out_of_resources:
       return ExitCode::out_of_resources;
+    case ErrorCode::cancelled:
+      return ExitCode::cancelled;
   }
   return ExitCode::failure;
 }

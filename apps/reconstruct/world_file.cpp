@@ -5,10 +5,10 @@
 #include <set>
 
 #include "documents/document_value.hpp"
+#include "documents/json_document.hpp"
 #include "documents/schema_check.hpp"
 #include "documents/schemas.hpp"
 #include "documents/value_readers.hpp"
-#include "documents/yaml_document.hpp"
 
 namespace vantage {
 namespace {
@@ -50,7 +50,7 @@ KnownObject read_object(const Value& value, const KnowledgeBase& knowledge) {
 }  // namespace
 
 WorldFile read_world(const std::filesystem::path& file, const KnowledgeBase& knowledge) {
-  const Document document = read_yaml(file);  // JSON is YAML, too
+  const Document document = read_document(file);
   check_schema(document, world_schema());
   const Value root(document);
   WorldFile world;

@@ -1,9 +1,9 @@
 #include "workcell/view_list.hpp"
 
+#include "documents/json_document.hpp"
 #include "documents/schema_check.hpp"
 #include "documents/schemas.hpp"
 #include "documents/value_readers.hpp"
-#include "documents/yaml_document.hpp"
 
 namespace vantage {
 namespace {
@@ -28,7 +28,7 @@ Pose read_looking_at(const Value& value) {
 }
 
 std::vector<Pose> read_view_file(const std::filesystem::path& file) {
-  const Document document = read_yaml(file);  // JSON is YAML, too
+  const Document document = read_document(file);
   check_schema(document, views_schema());
   return read_list(Value(document)["views"]);
 }

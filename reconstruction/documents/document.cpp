@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace vantage {
@@ -31,14 +32,35 @@ std::string key_path(const json& root, const std::string& pointer) {
 
 }  // namespace
 
+std::uint64_t LineMap::hash(std::string_view text, std::uint64_t so_far) {
+  constexpr std::uint64_t kPrime = 0x100000001b3;  // FNV-1a's
+  for (const char c : text) so_far = (so_far ^ static_cast<unsigned char>(c)) * kPrime;
+  return so_far;
+}
+
+void LineMap::finish() {
+  // What was said first of a value holds, as with a key and its value in the next line.
+  std::stable_sort(lines_.begin(), lines_.end(),
+                   [](const auto& a, const auto& b) { return a.first < b.first; });
+}
+
+std::optional<int> LineMap::find_hash(std::uint64_t wanted) const {
+  const auto found = std::lower_bound(lines_.begin(), lines_.end(), wanted,
+                                      [](const auto& a, std::uint64_t b) { return a.first < b; });
+  if (found == lines_.end() || found->first != wanted) return std::nullopt;
+  return found->second;
+}
+
+std::optional<int> Document::line(const std::string& pointer) const {
+  for (std::string_view at = pointer;; at = at.substr(0, at.rfind('/'))) {
+    const std::optional<int> found = lines.find(at);
+    if (found || at.empty()) return found;
+  }
+}
+
 std::string Document::place(const std::string& pointer) const {
   std::string text = name;
-  // A missing key has no line: its nearest ancestor has.
-  for (json::json_pointer at(pointer);; at.pop_back()) {
-    const auto line = lines.find(at.to_string());
-    if (line != lines.end()) text += fmt::format(":{}", line->second);
-    if (line != lines.end() || at.empty()) break;
-  }
+  if (const std::optional<int> found = line(pointer)) text += fmt::format(":{}", *found);
   const std::string path = key_path(root, pointer);
   return path.empty() ? text : text + ": " + path;
 }

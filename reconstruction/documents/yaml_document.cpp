@@ -1,188 +1,211 @@
 #include "documents/yaml_document.hpp"
 
 #include <fmt/format.h>
-#include <yaml-cpp/yaml.h>
+#include <yaml.h>
 
 #include <algorithm>
-#include <charconv>
-#include <initializer_list>
-#include <limits>
+#include <cstdint>
+#include <new>
 #include <optional>
-#include <regex>
 #include <vector>
 
+#include "documents/document_builder.hpp"
+#include "documents/yaml_scalar.hpp"
 #include "vantage/raycore/detail/file.hpp"
 
 namespace vantage {
 namespace {
 
-using nlohmann::json;
+constexpr std::string_view kStandardTag = "tag:yaml.org,2002:";  // "!!" is short for it
 
-constexpr std::size_t kMaxYamlBytes = std::size_t(16) << 20;
-constexpr int kMaxYamlDepth = 64;
-constexpr std::size_t kMaxValues = 100'000;
-
-int line_of(const YAML::Node& node) {
-  return node.Mark().line + 1;
-}
-
-/// Digits in base 2 to 16, a sign in front allowed; nothing if it does not fit 64 bits.
-std::optional<json> whole_number(std::string_view digits, int base) {
-  std::int64_t value = 0;
-  if (digits.starts_with('+')) digits.remove_prefix(1);
-  const auto [end, error] =
-      std::from_chars(digits.data(), digits.data() + digits.size(), value, base);
-  if (error != std::errc{} || end != digits.data() + digits.size()) return std::nullopt;
-  return value;
-}
-
-std::optional<json> real_number(std::string_view digits) {
-  double value = 0;
-  if (digits.starts_with('+')) digits.remove_prefix(1);
-  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-  if (error != std::errc{} || end != digits.data() + digits.size()) return std::nullopt;
-  return value;
-}
-
-bool is_one_of(const std::string& text, std::initializer_list<const char*> words) {
-  return std::find(words.begin(), words.end(), text) != words.end();
-}
-
-/// YAML 1.2.2, section 10.3.2. Nothing for a number that is out of range.
-std::optional<json> core_scalar(const std::string& text) {
-  static const std::regex octal("0o[0-7]+"), hexadecimal("0x[0-9a-fA-F]+"), whole("[-+]?[0-9]+"),
-      real("[-+]?(\\.[0-9]+|[0-9]+(\\.[0-9]*)?)([eE][-+]?[0-9]+)?");
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  constexpr std::size_t kLongestNumber = 400;  // std::regex recurses once per character
-
-  if (is_one_of(text, {"", "~", "null", "Null", "NULL"})) return json(nullptr);
-  if (is_one_of(text, {"true", "True", "TRUE"})) return json(true);
-  if (is_one_of(text, {"false", "False", "FALSE"})) return json(false);
-  if (is_one_of(text, {".inf", ".Inf", ".INF", "+.inf", "+.Inf", "+.INF"})) return json(kInfinity);
-  if (is_one_of(text, {"-.inf", "-.Inf", "-.INF"})) return json(-kInfinity);
-  if (is_one_of(text, {".nan", ".NaN", ".NAN"})) {
-    return json(std::numeric_limits<double>::quiet_NaN());
-  }
-  if (text.size() > kLongestNumber) return json(text);
-  if (std::regex_match(text, octal)) return whole_number(std::string_view(text).substr(2), 8);
-  if (std::regex_match(text, hexadecimal))
-    return whole_number(std::string_view(text).substr(2), 16);
-  if (std::regex_match(text, whole)) {
-    const std::optional<json> value = whole_number(text, 10);
-    return value ? value : real_number(text);
-  }
-  if (std::regex_match(text, real)) return real_number(text);
-  return json(text);
-}
-
-/// Turns a tree of yaml-cpp's into JSON and notes the lines.
-class Converter {
+/// One event of libyaml's, freed with its owner.
+class YamlEvent {
  public:
-  explicit Converter(Document& document) : document_(document) {}
+  YamlEvent() = default;
+  ~YamlEvent() { yaml_event_delete(&event_); }
+  YamlEvent(const YamlEvent&) = delete;
+  YamlEvent& operator=(const YamlEvent&) = delete;
 
-  json convert(const YAML::Node& node, const std::string& pointer, int depth) {
-    document_.lines.try_emplace(pointer, line_of(node));
-    if (depth > kMaxYamlDepth) {
-      // An alias to something that it is part of ends here, too.
-      fail(node, fmt::format("nested deeper than {} levels", kMaxYamlDepth));
-    }
-    if (++values_ > kMaxValues) {
-      fail(node, fmt::format("more than {} values, aliases expanded; expected a file of settings",
-                             kMaxValues));
-    }
-    switch (node.Type()) {
-      case YAML::NodeType::Map:
-        return map(node, pointer, depth);
-      case YAML::NodeType::Sequence:
-        return sequence(node, pointer, depth);
-      case YAML::NodeType::Scalar:
-        return scalar(node);
-      default:
-        return nullptr;
-    }
+  yaml_event_t* get() { return &event_; }
+  const yaml_event_t* operator->() const { return &event_; }
+
+  TextPosition position() const {
+    return {int(event_.start_mark.line) + 1, int(event_.start_mark.column) + 1};
   }
 
  private:
-  [[noreturn]] void fail(const YAML::Node& node, std::string message) const {
-    throw bad_input(fmt::format("{}:{}", document_.name, line_of(node)), std::move(message));
-  }
-
-  json map(const YAML::Node& node, const std::string& pointer, int depth) {
-    check_tag(node, "tag:yaml.org,2002:map");
-    json object = json::object();
-    for (const auto& entry : node) {
-      if (!entry.first.IsScalar()) fail(entry.first, "a key that is no plain word");
-      const std::string& key = entry.first.Scalar();
-      const std::string at = child(pointer, key);
-      if (object.contains(key)) {
-        fail(entry.first, fmt::format("the key \"{}\" is there twice, first in line {}; remove one "
-                                      "of them",
-                                      key, document_.lines.at(at)));
-      }
-      document_.lines.emplace(at, line_of(entry.first));
-      object[key] = convert(entry.second, at, depth + 1);
-    }
-    return object;
-  }
-
-  json sequence(const YAML::Node& node, const std::string& pointer, int depth) {
-    check_tag(node, "tag:yaml.org,2002:seq");
-    json array = json::array();
-    for (const YAML::Node& element : node) {
-      array.push_back(convert(element, child(pointer, array.size()), depth + 1));
-    }
-    return array;
-  }
-
-  /// yaml-cpp's tags: "!" for a quoted scalar, "?" or none for what has no tag.
-  json scalar(const YAML::Node& node) const {
-    const std::string& text = node.Scalar();
-    if (node.Tag() == "!" || node.Tag() == "tag:yaml.org,2002:str") return text;
-    check_tag(node, "tag:yaml.org,2002:str");
-    std::optional<json> value = core_scalar(text);
-    if (!value)
-      fail(node, fmt::format("found {}; this number is out of range", text.substr(0, 60)));
-    return *std::move(value);
-  }
-
-  void check_tag(const YAML::Node& node, std::string_view allowed) const {
-    const std::string& tag = node.Tag();
-    if (tag.empty() || tag == "?" || tag == "!" || tag == allowed) return;
-    fail(node, fmt::format("unknown tag {}; remove it", tag));
-  }
-
-  Document& document_;
-  std::size_t values_ = 0;
+  yaml_event_t event_ = {};
 };
 
-std::vector<YAML::Node> load(std::string_view text, const std::string& name) {
-  try {
-    return YAML::LoadAll(std::string(text));
-  } catch (const YAML::Exception& error) {
-    throw bad_input(fmt::format("{}:{}:{}", name, error.mark.line + 1, error.mark.column + 1),
-                    fmt::format("no valid YAML: {}", error.msg));
-  }
+std::string text_or_empty(const yaml_char_t* text) {
+  return text == nullptr ? std::string() : reinterpret_cast<const char*>(text);
 }
+
+/// libyaml's parser over one text. It keeps its state on the heap, so that depth costs no stack.
+class YamlParser {
+ public:
+  YamlParser(std::string_view text, const std::string& name) : text_(text), name_(name) {
+    if (yaml_parser_initialize(&parser_) == 0) throw std::bad_alloc();
+    yaml_parser_set_input_string(&parser_, reinterpret_cast<const unsigned char*>(text.data()),
+                                 text.size());
+  }
+  ~YamlParser() { yaml_parser_delete(&parser_); }
+  YamlParser(const YamlParser&) = delete;
+  YamlParser& operator=(const YamlParser&) = delete;
+
+  /// @throws Error bad_input with file:line:column for what is no valid YAML.
+  void next(YamlEvent& event) {
+    if (yaml_parser_parse(&parser_, event.get()) == 0) fail();
+  }
+
+ private:
+  [[noreturn]] void fail() const {
+    if (parser_.error == YAML_MEMORY_ERROR) throw std::bad_alloc();
+    if (parser_.error == YAML_READER_ERROR) {
+      throw bad_input(place_in_text(name_, position_of(parser_.problem_offset)),
+                      fmt::format("no valid YAML: {} (0x{:02x}); expected UTF-8 text",
+                                  parser_.problem, parser_.problem_value));
+    }
+    const TextPosition at{int(parser_.problem_mark.line) + 1, int(parser_.problem_mark.column) + 1};
+    std::string reason = parser_.problem;
+    if (parser_.context != nullptr) {
+      reason += fmt::format(" {}, line {}", parser_.context, parser_.context_mark.line + 1);
+    }
+    throw bad_input(place_in_text(name_, at), "no valid YAML: " + reason);
+  }
+
+  /// Of a byte of the text.
+  TextPosition position_of(std::size_t byte) const {
+    TextPosition at{1, 1};
+    for (std::size_t i = 0; i < std::min(byte, text_.size()); ++i) {
+      const bool ends_line =
+          text_[i] == '\n' || (text_[i] == '\r' && text_.substr(i + 1, 1) != "\n");
+      at = ends_line ? TextPosition{at.line + 1, 1} : TextPosition{at.line, at.column + 1};
+    }
+    return at;
+  }
+
+  std::string_view text_;
+  const std::string& name_;
+  yaml_parser_t parser_ = {};
+};
+
+/// Hands libyaml's events to a builder.
+class YamlReader {
+ public:
+  YamlReader(const std::string& name, const YamlOptions& options, const StopToken& stop)
+      : name_(name), ignore_tags_(options.ignore_tags), builder_(name, options.limits, stop) {}
+
+  Document read(YamlParser& parser) {
+    while (true) {
+      YamlEvent event;
+      parser.next(event);
+      if (event->type == YAML_STREAM_END_EVENT) break;
+      handle(event);
+    }
+    Document document = builder_.finish();
+    if (document.root.is_null()) throw bad_input(name_, "the file is empty; expected YAML");
+    return document;
+  }
+
+ private:
+  void handle(const YamlEvent& event) {
+    const TextPosition at = event.position();
+    switch (event->type) {
+      case YAML_DOCUMENT_START_EVENT:
+        if (++documents_ > 1) builder_.fail(at, "a second document begins; expected one per file");
+        break;
+      case YAML_MAPPING_START_EVENT:
+        check_tag(text_or_empty(event->data.mapping_start.tag), "map", at);
+        builder_.begin_map(at, text_or_empty(event->data.mapping_start.anchor));
+        break;
+      case YAML_SEQUENCE_START_EVENT:
+        check_tag(text_or_empty(event->data.sequence_start.tag), "seq", at);
+        builder_.begin_list(at, text_or_empty(event->data.sequence_start.anchor));
+        break;
+      case YAML_MAPPING_END_EVENT:
+      case YAML_SEQUENCE_END_EVENT:
+        builder_.end();
+        break;
+      case YAML_ALIAS_EVENT:
+        builder_.alias(text_or_empty(event->data.alias.anchor), at);
+        break;
+      case YAML_SCALAR_EVENT:
+        scalar(event, at);
+        break;
+      default:  // begin of the stream, end of the document
+        break;
+    }
+  }
+
+  void scalar(const YamlEvent& event, TextPosition at) {
+    const auto& scalar = event->data.scalar;
+    const std::string text(reinterpret_cast<const char*>(scalar.value), scalar.length);
+    const std::string anchor = text_or_empty(scalar.anchor);
+    const bool plain = scalar.style == YAML_PLAIN_SCALAR_STYLE;
+    if (builder_.expects_key()) {
+      if (plain && text == "<<") return builder_.merge_key(at);
+      return builder_.key(text, at);
+    }
+    builder_.value(typed(text, text_or_empty(scalar.tag), plain, at), at, anchor);
+  }
+
+  nlohmann::json typed(const std::string& text, const std::string& tag, bool plain,
+                       TextPosition at) const {
+    const bool standard = tag.starts_with(kStandardTag);
+    const std::string kind = standard ? tag.substr(kStandardTag.size()) : "";
+    if (kind == "str" || tag == "!") return text;
+    const bool asks_for_type = kind == "int" || kind == "float" || kind == "bool" || kind == "null";
+    if (!asks_for_type) {
+      check_tag(tag, "str", at);
+      if (!plain) return text;
+    }
+    const std::optional<nlohmann::json> value = core_scalar(text);
+    if (!value) builder_.fail(at, fmt::format("found {}: out of range", shown(text)));
+    if (kind == "float" && value->is_number()) return value->get<double>();
+    if ((kind == "int" && !value->is_number_integer()) || (kind == "float") ||
+        (kind == "bool" && !value->is_boolean()) || (kind == "null" && !value->is_null())) {
+      builder_.fail(at, fmt::format("found {}, which is no {}, as its tag !!{} says", shown(text),
+                                    kind, kind));
+    }
+    return *value;
+  }
+
+  void check_tag(const std::string& tag, std::string_view allowed, TextPosition at) const {
+    if (tag.empty() || tag == "!" || ignore_tags_) return;
+    if (tag == std::string(kStandardTag).append(allowed)) return;
+    builder_.fail(at, fmt::format("unknown tag {}; remove it", tag));
+  }
+
+  const std::string& name_;
+  bool ignore_tags_;
+  int documents_ = 0;
+  DocumentBuilder builder_;
+};
 
 }  // namespace
 
-Document parse_yaml(std::string_view text, const std::string& name) {
-  const std::vector<YAML::Node> documents = load(text, name);
-  if (documents.empty() || (documents.size() == 1 && documents[0].IsNull())) {
-    throw bad_input(name, "the file is empty; expected YAML");
+Document parse_yaml(std::string_view text, const std::string& name, const YamlOptions& options,
+                    const StopToken& stop) {
+  if (text.size() > options.limits.max_bytes) {
+    throw bad_input(name, fmt::format("has {} bytes; at most {} are read here", text.size(),
+                                      options.limits.max_bytes));
   }
-  if (documents.size() > 1) {
-    throw bad_input(fmt::format("{}:{}", name, line_of(documents[1])),
-                    fmt::format("{} documents in one file; expected one", documents.size()));
+  std::string without_header;
+  if (options.ignore_tags && text.starts_with("%YAML")) {
+    without_header = text;
+    without_header.front() = '#';  // a comment: lines and columns stay what they are
+    text = without_header;
   }
-  Document document{name, {}};
-  document.root = Converter(document).convert(documents[0], "", 0);
-  return document;
+  YamlParser parser(text, name);
+  return YamlReader(name, options, stop).read(parser);
 }
 
-Document read_yaml(const std::filesystem::path& path) {
-  const std::vector<std::uint8_t> bytes = read_file(path, kMaxYamlBytes);
-  return parse_yaml({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, path.string());
+Document read_yaml(const std::filesystem::path& path, const YamlOptions& options,
+                   const StopToken& stop) {
+  const std::vector<std::uint8_t> bytes = read_file(path, options.limits.max_bytes);
+  return parse_yaml({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, path.string(),
+                    options, stop);
 }
 
 }  // namespace vantage

@@ -6,14 +6,13 @@
 
 #include "cli/sha256.hpp"
 #include "documents/document_value.hpp"
+#include "documents/json_document.hpp"
 #include "documents/schema_check.hpp"
 #include "documents/schemas.hpp"
 #include "documents/value_readers.hpp"
-#include "documents/yaml_document.hpp"
 #include "options/candidate_fields.hpp"
 #include "options/field_json.hpp"
 #include "options/sensor_fields.hpp"
-#include "vantage/raycore/detail/file.hpp"
 #include "vantage/raycore/error.hpp"
 
 namespace vantage {
@@ -103,11 +102,11 @@ JudgedView view_of(const Value& view) {
 
 JudgedPlan read_judged_plan(const fs::path& workcell_file, const fs::path& plan_file,
                             const StopToken& stop) {
-  const Document document = read_yaml(plan_file);  // JSON is YAML, too
+  const Document document = read_document(plan_file);
   check_schema(document, plan_schema());
   const Value plan(document);
   if (plan["best"].is_null()) throw plan["best"].error("the plan has no best view to be judged");
-  const PlainJson json = PlainJson::parse(read_file(plan_file));
+  const PlainJson& json = document.root;
   check_workcell(json, workcell_file, plan_file);
   const fs::path dataset = dataset_of(json, workcell_file, plan_file);
   JudgedPlan judged{

@@ -7,8 +7,8 @@
 #include <string>
 
 #include "documents/document_value.hpp"
+#include "documents/json_document.hpp"
 #include "documents/schema_check.hpp"
-#include "documents/yaml_document.hpp"
 #include "metrics/bop/pose_errors.hpp"
 #include "vantage/raycore/error.hpp"
 
@@ -77,7 +77,7 @@ class SceneObjects {
 
 std::vector<TrueObject> from_scene_gt(const fs::path& file, const KnowledgeBase& knowledge,
                                       const BopScene& scene) {
-  const Document document = read_yaml(file);  // JSON is YAML, too
+  const Document document = read_document(file);
   check_schema(document, scene_gt_schema());
   const Value images(document);
   SceneObjects objects;

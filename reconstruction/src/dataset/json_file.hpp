@@ -2,16 +2,15 @@
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
-#include <string_view>
+
+#include "documents/json_document.hpp"
 
 namespace vantage::reconstruction::detail {
 
-/// Parses a JSON file that nobody vouches for.
-/// @throws Error bad_input with file:line:column for a syntax error and for nesting deeper than 64;
-/// for a key that is there twice; for a file that is missing or above 64 MiB.
-nlohmann::json parse_json_file(const std::filesystem::path& path);
-
-/// The same for one line of a file of JSON lines; `line` counts from 1.
-nlohmann::json parse_json_line(const std::filesystem::path& path, int line, std::string_view text);
+/// The values of a JSON file, for those who make their own places; `read_json` says what it throws.
+inline nlohmann::json parse_json_file(const std::filesystem::path& path,
+                                      const StopToken& stop = {}) {
+  return read_json(path, kJsonLimits, stop).root;
+}
 
 }  // namespace vantage::reconstruction::detail

@@ -7,8 +7,8 @@
 #include <string>
 #include <string_view>
 
-#include "dataset/json_file.hpp"
 #include "documents/document_value.hpp"
+#include "documents/json_document.hpp"
 #include "documents/marker_reader.hpp"
 #include "documents/schema_check.hpp"
 #include "documents/schemas.hpp"
@@ -111,8 +111,7 @@ std::map<int, std::vector<Observation>> read_observations(const std::filesystem:
     const std::string_view text = rest.substr(0, end);
     rest.remove_prefix(end == std::string_view::npos ? rest.size() : end + 1);
     if (text.find_first_not_of(" \t\r") == std::string_view::npos) continue;
-    const Document document{
-        file.string(), reconstruction::detail::parse_json_line(file, number, text), {{"", number}}};
+    const Document document = parse_json(text, file.string(), kJsonLimits, {}, number);
     check_schema(document, observation_schema());
     const Value line(document);
     observations[line["image"].as<int>()].push_back(read_observation(line));

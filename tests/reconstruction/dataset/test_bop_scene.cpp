@@ -109,7 +109,7 @@ TEST_CASE("a scene_camera.json that is damaged is refused") {
   expect_json_refused("{\n \"7\": {\"cam_K\": [1,", "scene_camera.json:2:20", {"truncated"});
   expect_json_refused("{\"7\": {\"depth_scale\": NaN}}", "scene_camera.json:1:23",
                       {"no valid JSON"});
-  expect_json_refused("{\"7\": {\"depth_scale\": 1e999}}", "scene_camera.json", {"1e999"});
+  expect_json_refused("{\"7\": {\"depth_scale\": 1e999}}", "scene_camera.json:1:27", {"1e999"});
   expect_json_refused("{\"7\": 3}", "scene_camera.json: \"7\"", {"found 3", "cam_K"});
   expect_json_refused("{\"seven\": {}}", "scene_camera.json: \"seven\"", {"no image id"});
   expect_json_refused("{\"-7\": {}}", "scene_camera.json: \"-7\"", {"no image id"});
@@ -118,8 +118,8 @@ TEST_CASE("a scene_camera.json that is damaged is refused") {
 }
 
 TEST_CASE("an image that is there twice is refused") {
-  expect_json_refused("{\"7\": {}, \"7\": {}}", "scene_camera.json: \"7\"",
-                      {"twice", "remove one"});
+  expect_json_refused("{\"7\": {}, \"7\": {}}", "scene_camera.json:1:13",
+                      {"\"7\"", "twice", "remove one"});
   expect_json_refused("{\"7\": {}, \"007\": {}}", "scene_camera.json: \"7\"", {"image 7", "twice"});
   // The same key in two objects is fine; this one gets as far as image 8's missing depth.
   const std::string entry = "{" + kCamK + ", " + kScale + "}";

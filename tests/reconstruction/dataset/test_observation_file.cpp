@@ -93,7 +93,7 @@ TEST_CASE("lines that are not as the schema has them are refused with their plac
   expect_line_refused(start + R"(, "point_m": [0, 1, "much"]})", "seen.jsonl:3: point_m[2]",
                       "much");
   expect_line_refused(start + R"(, "points_px": []})", "seen.jsonl:3: points_px", "1 to 4096");
-  expect_line_refused(start + R"(, "a": 1, "a": 2})", R"(seen.jsonl:3: "a")", "twice");
+  expect_line_refused(start + R"(, "a": 1, "a": 2})", R"(seen.jsonl:3:51)", "twice");
   expect_line_refused(R"({"image": -1, "type": "a", "value": "b", "point_m": [0, 0, 1]})",
                       "seen.jsonl:3: image", ">= 0");
   expect_line_refused(R"({"type": "a", "value": "b", "point_m": [0, 0, 1]})", "seen.jsonl:3: image",

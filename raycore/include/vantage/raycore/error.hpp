@@ -11,6 +11,7 @@ enum class ErrorCode {
   bad_input,         ///< a file, a key or an argument is not what it has to be
   no_feasible_view,  ///< every candidate view was rejected
   out_of_resources,  ///< memory or disk space is used up, or a stated limit is exceeded
+  cancelled,         ///< the StopToken was, before there was a result
 };
 
 /// What vantage throws. `what()` reads "where: message".
