@@ -102,7 +102,8 @@ BopScene load_dataset(const fs::path& folder, const Workcell& workcell,
   if (calibrations.size() != 1) {
     throw bad_input((folder / "scene_camera.json").string(),
                     "missing; expected a BOP scene folder, or photographs by one camera and its "
-                    "calibration: --calibration camera.yml");
+                    "calibration: --calibration camera.yml; recordings by TUM RGB-D, nerfstudio, "
+                    "COLMAP and ScanNet: vantage import");
   }
   BopScene scene = load_photographs(folder, read_calibration(calibrations.front()).intrinsics(),
                                     workcell.sensor_range);

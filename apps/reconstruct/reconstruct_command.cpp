@@ -68,7 +68,8 @@ ExitCode reconstruct_command(const ReconstructCommand& command) {
   const StopToken stop;
   const SignalHandler interrupt({stop});
   Workers workers(command.threads);
-  const SceneReconstructionOptions options = options_of(command.how);
+  SceneReconstructionOptions options = options_of(command.how);
+  options.cameras_suffice = true;
   const Workcell workcell = load_workcell(command.workcell);
   const BopScene scene = load_dataset(command.dataset, workcell, command.images, options.observe);
   const double load_s = seconds_since(start);
@@ -106,8 +107,9 @@ void add_reconstruct_command(CLI::App& app, Action& action) {
   verb->add_option("dataset", command->dataset,
                    "BOP scene folder; or one with photographs, if there is a calibration")
       ->required();
-  verb->add_option("--workcell", command->workcell,
-                   "Workcell file (YAML) with knowledge_base, and board if cameras have no poses")
+  verb->add_option(
+          "--workcell", command->workcell,
+          "Workcell file (YAML) with knowledge_base or board, and board if cameras have no poses")
       ->option_text("FILE")
       ->required()
       ->group("Input");

@@ -42,7 +42,8 @@ void add_random_options(CLI::App& verb, SimulateOptions& a) {
                   "random_objects")
       ->check(CLI::Range(0, 10000));
   verb.add_option("--types", s.types,
-                  "Types of the random objects, taken in turns, e.g. red_cube,duck")
+                  "Types of the random objects, taken in turns, e.g. red_cube,duck; a name above "
+                  "others in the hierarchy is all of them, e.g. cube")
       ->delimiter(',');
 }
 

@@ -1,7 +1,6 @@
 #include "simulate/simulated_dataset.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -14,6 +13,7 @@
 #include "vantage/raycore/error.hpp"
 #include "vantage/raycore/image_io.hpp"
 #include "vantage/raycore/lens.hpp"
+#include "vantage/reconstruction/calibration.hpp"
 
 namespace vantage {
 namespace {
@@ -52,22 +52,6 @@ RawDepthImage to_counts(const DepthImage& depth, double depth_scale_mm) {
   return counts;
 }
 
-/// The calibration file that OpenCV's tools read and write.
-std::string calibration_yaml(const Intrinsics& k, const Distortion& d) {
-  const bool fisheye = d.model == LensModel::fisheye;
-  const std::vector<double> brown = {d.k1, d.k2, d.p1, d.p2, d.k3},
-                            angles = {d.k1, d.k2, d.k3, d.k4};
-  const std::vector<double>& coefficients = fisheye ? angles : brown;
-  return fmt::format(
-      "%YAML:1.0\n---\nimage_width: {}\nimage_height: {}\n{}"
-      "camera_matrix: !!opencv-matrix\n   rows: 3\n   cols: 3\n   dt: d\n"
-      "   data: [ {}, 0., {}, 0., {}, {}, 0., 0., 1. ]\n"
-      "distortion_coefficients: !!opencv-matrix\n   rows: {}\n   cols: 1\n   dt: d\n"
-      "   data: [ {} ]\n",
-      k.width, k.height, fisheye ? "fisheye_model: 1\n" : "", k.fx, k.cx, k.fy, k.cy,
-      coefficients.size(), fmt::join(coefficients, ", "));
-}
-
 void check_depth_range(const CellCamera& camera, double depth_scale_mm) {
   const double most = 65535 * depth_scale_mm / kMillimetres, far_m = camera.camera.range().far_m;
   if (far_m <= most) return;
@@ -83,8 +67,8 @@ void write_calibrations(const Workcell& workcell, const RecordingOptions& option
                         const fs::path& folder) {
   const std::vector<std::string> names = calibration_names(workcell, options);
   for (std::size_t i = 0; i < names.size(); ++i) {
-    write_file(folder / names[i],
-               calibration_yaml(workcell.cameras[i].camera.intrinsics(), options.color.distortion));
+    const Lens lens(workcell.cameras[i].camera.intrinsics(), options.color.distortion);
+    write_file(folder / names[i], calibration_yaml(lens));
   }
 }
 

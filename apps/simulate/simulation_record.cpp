@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "cli/inputs_json.hpp"
 #include "cli/volume_text.hpp"
 #include "options/field_json.hpp"
@@ -67,7 +69,13 @@ void prepare_objects(Workcell& workcell, SimulationOptions& options) {
     if (!options.types.empty()) {
       random.types.clear();
       for (const std::string& name : options.types) {
-        random.types.push_back(workcell.knowledge->get(name, "--types"));
+        const auto types = workcell.knowledge->types_that_are(name);
+        if (types.empty()) workcell.knowledge->get(name, "--types");  // says which names there are
+        for (const TypePtr& type : types) {
+          if (std::ranges::find(random.types, type) == random.types.end()) {
+            random.types.push_back(type);
+          }
+        }
       }
     } else if (random.types.empty()) {
       random.types = workcell.knowledge->types();

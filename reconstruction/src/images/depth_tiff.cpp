@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 
-#include <bit>
+#include <algorithm>
 #include <opencv2/imgcodecs.hpp>
 #include <vector>
 

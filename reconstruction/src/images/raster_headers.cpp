@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdlib>
+#include <set>
 #include <string_view>
 
 namespace vantage::reconstruction::detail {
@@ -74,11 +75,14 @@ std::optional<RasterHeader> tiff_header(RasterBytes bytes) {
   if (!count) return std::nullopt;
   RasterHeader header;
   header.bits = 1;  // where a TIFF says nothing
+  std::set<std::uint32_t>
+      taken;  // of a tag that is there twice the first one counts, as in libtiff
   for (std::uint32_t i = 0; i < *count; ++i) {
     const std::size_t entry = std::size_t(*directory) + 2 + 12 * std::size_t(i);
     const auto tag = numbers.number(entry, 2);
     if (!tag) return std::nullopt;
-    if (const auto value = numbers.value_at(entry)) take_tag(*tag, *value, header);
+    const auto value = numbers.value_at(entry);
+    if (value && taken.insert(*tag).second) take_tag(*tag, *value, header);
   }
   return header;
 }

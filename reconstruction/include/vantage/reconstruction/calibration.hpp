@@ -30,4 +30,7 @@ VANTAGE_API CalibrationName calibration_name(const std::filesystem::path& name);
 /// as `Lens` does.
 VANTAGE_API Lens read_calibration(const std::filesystem::path& name, int width = 0, int height = 0);
 
+/// The text of a calibration file as OpenCV's tools write and read it.
+VANTAGE_API std::string calibration_yaml(const Lens& lens);
+
 }  // namespace vantage
