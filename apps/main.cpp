@@ -56,6 +56,7 @@ int main(int argc, char** argv) {
   add_validate_command(app, action);
   add_simulate_command(app, action);
   add_render_command(app, action);
+  add_import_command(app, action);
   add_evaluate_command(app, action);
   try {
     app.parse(argc, argv);

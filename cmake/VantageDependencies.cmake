@@ -27,6 +27,11 @@ find_package(OpenVDB REQUIRED COMPONENTS openvdb)
 # Debian 12 has the marker dictionaries in `aruco`, Debian 13 in `objdetect`.
 find_package(OpenCV REQUIRED COMPONENTS core imgcodecs imgproc calib3d objdetect aruco)
 
+# Depth as OpenEXR.
+find_package(OpenEXR 3 CONFIG REQUIRED)
+# Calibrations as OpenCV's XML.
+find_package(pugixml REQUIRED)
+
 # Ceres' headers are not free of the warnings that ours have to be.
 find_package(Ceres REQUIRED)
 add_library(vantage_ceres INTERFACE)

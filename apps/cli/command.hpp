@@ -16,6 +16,7 @@ void add_validate_command(CLI::App& app, Action& action);
 void add_simulate_command(CLI::App& app, Action& action);
 void add_reconstruct_command(CLI::App& app, Action& action);
 void add_render_command(CLI::App& app, Action& action);
+void add_import_command(CLI::App& app, Action& action);
 void add_evaluate_command(CLI::App& app, Action& action);
 void add_evaluate_planning(CLI::App& evaluate_verb, Action& action);
 void add_evaluate_reconstruction(CLI::App& evaluate_verb, Action& action);

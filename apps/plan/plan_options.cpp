@@ -37,10 +37,11 @@ void add_input_options(CLI::App& verb, PlanOptions& plan) {
 
 void add_object_options(CLI::App& verb, ObjectSource& source) {
   verb.add_option("--objects", source.objects,
-                  "given: the workcell's known_objects; pnp, voting, svd: found by that method; or "
-                  "a world.json of `vantage reconstruct` (default: given if there are any, else "
+                  "given: the workcell's known_objects; pnp, voting, svd: found by that method; "
+                  "given+pnp: both; or a world.json of `vantage reconstruct` (default: given if "
+                  "there are any, else "
                   "pnp)")
-      ->option_text("given|pnp|voting|svd|FILE")
+      ->option_text("given|pnp|voting|svd|given+pnp|FILE")
       ->group("Known objects");
   source.how.add_to(verb);
 }

@@ -3,7 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <string_view>
+#include <utility>
 
+#include "reconstruct/scene_warnings.hpp"
 #include "reconstruct/world_file.hpp"
 #include "vantage/raycore/error.hpp"
 
@@ -32,11 +35,49 @@ DepthCamera observer(const BopImage& image, const Pose& T_world_cam) {
           PinholeCamera(image.intrinsics, T_world_cam, image.range, image.place), image.depth};
 }
 
-void use_given(const BopScene& scene, const Workcell& workcell, PlanWorld& plan) {
+constexpr const char* kGivenAnd = "given+";
+
+/// A camera for each image whose pose was found; warnings of the others, and of doubtful ones.
+void add_located(const BopScene& scene, const ObservedScene& observed, PlanWorld& plan) {
+  for (std::size_t i = 0; i < scene.images.size(); ++i) {
+    const auto& pose = observed.views[i].T_world_cam;
+    if (pose) plan.world.cameras.push_back(observer(scene.images[i], *pose));
+  }
+  for (std::string& warning : camera_warnings(scene, observed)) {
+    plan.warnings.push_back(std::move(warning));
+  }
+  plan.files.insert(plan.files.end(), observed.files.begin(), observed.files.end());
+}
+
+/// Objects as the workcell has them. Cameras, too, as the dataset has them; what it leaves open the
+/// board tells.
+void use_given(const BopScene& scene, const Workcell& workcell, const ObserveOptions& options,
+               const StopToken& stop, PlanWorld& plan) {
   plan.world.objects = known(workcell.known_objects);
+  const bool all_posed = std::ranges::all_of(
+      scene.images, [](const BopImage& image) { return image.T_world_cam.has_value(); });
+  const bool ask_board = options.cameras == CameraSource::board ||
+                         (options.cameras == CameraSource::automatic && !all_posed);
+  if (ask_board && workcell.board) {
+    const ObservedScene observed = observe(scene, workcell, options, stop);
+    if (stop.stop_requested()) return;
+    check_cameras(scene, observed);
+    add_located(scene, observed, plan);
+    return;
+  }
   for (const BopImage& image : scene.images) {
     plan.world.cameras.push_back({std::to_string(image.id), image.camera(), image.depth});
   }
+}
+
+/// Whether it is one of the given objects that was found once more.
+bool is_given(const KnownObject& found, const std::vector<KnownObject>& given) {
+  constexpr double kSameObject_m = 0.03;
+  return std::ranges::any_of(given, [&](const KnownObject& object) {
+    const double apart_m =
+        (object.T_world_object.translation() - found.T_world_object.translation()).norm();
+    return object.type == found.type && apart_m < kSameObject_m;
+  });
 }
 
 void use_reconstruction(const BopScene& scene, const Workcell& workcell,
@@ -45,35 +86,29 @@ void use_reconstruction(const BopScene& scene, const Workcell& workcell,
   const SceneReconstruction found = reconstruct_scene(scene, workcell, options, stop);
   std::vector<std::string> taken;
   for (const PlacedObject& object : workcell.static_structures) taken.push_back(object.name);
-  plan.world.objects = known_objects(found.result, taken);
-  for (std::size_t i = 0; i < plan.world.objects.size(); ++i) {
-    const std::string& doubt = found.result.objects[i].warning;
-    if (!doubt.empty()) {
-      plan.warnings.push_back(fmt::format("{}: {}", plan.world.objects[i].name, doubt));
-    }
+  const bool with_given = plan.objects.starts_with(kGivenAnd);
+  if (with_given) {
+    plan.world.objects = known(workcell.known_objects);
+    for (const PlacedObject& object : workcell.known_objects) taken.push_back(object.name);
   }
-  for (std::size_t i = 0; i < scene.images.size(); ++i) {
-    const auto& pose = found.observed.views[i].T_world_cam;
-    const std::string& doubt = found.observed.locations[i].warning;
-    if (!doubt.empty()) {
-      plan.warnings.push_back(fmt::format("image {}: {}", scene.images[i].id, doubt));
-    }
-    if (pose) {
-      plan.world.cameras.push_back(observer(scene.images[i], *pose));
-    } else {
-      plan.warnings.push_back(fmt::format("skipping image {}: {}", scene.images[i].id,
-                                          found.observed.locations[i].reason));
-    }
+  const std::vector<KnownObject> given = plan.world.objects;
+  std::vector<KnownObject> objects = known_objects(found.result, taken);
+  for (std::string& warning : object_warnings(found.result, objects)) {
+    plan.warnings.push_back(std::move(warning));
   }
-  plan.files.insert(plan.files.end(), found.observed.files.begin(), found.observed.files.end());
+  for (KnownObject& object : objects) {
+    if (!is_given(object, given)) plan.world.objects.push_back(std::move(object));
+  }
+  add_located(scene, found.observed, plan);
 }
 
 void use_file(const BopScene& scene, const Workcell& workcell, const fs::path& file,
               PlanWorld& plan) {
   if (!fs::exists(file)) {
-    throw bad_input("--objects", fmt::format("found {}; expected given, pnp, voting or svd, or a "
-                                             "world.json that is there",
-                                             file.string()));
+    throw bad_input("--objects",
+                    fmt::format("found {}; expected given, pnp, voting, svd, given+pnp "
+                                "or the like, or a world.json that is there",
+                                file.string()));
   }
   WorldFile world = read_world(file, *workcell.knowledge);
   plan.world.objects = std::move(world.objects);
@@ -103,11 +138,14 @@ PlanWorld load_plan_world(const fs::path& dataset, const std::vector<int>& image
   const BopScene scene = load_dataset(dataset, workcell, images, options.observe);
   PlanWorld plan{{}, source.objects, scene.files, scene.warnings, scene.images.front().intrinsics};
   if (plan.objects.empty()) plan.objects = usual_source(scene, workcell);
+  const std::string method = plan.objects.starts_with(kGivenAnd)
+                                 ? plan.objects.substr(std::string_view(kGivenAnd).size())
+                                 : plan.objects;
   plan.world.static_structures = known(workcell.static_structures);
   if (plan.objects == "given") {
-    use_given(scene, workcell, plan);
-  } else if (is_method(plan.objects)) {
-    options.method = reconstruction_method_of(plan.objects);
+    use_given(scene, workcell, options.observe, stop, plan);
+  } else if (is_method(method)) {
+    options.method = reconstruction_method_of(method);
     use_reconstruction(scene, workcell, options, stop, plan);
   } else {
     use_file(scene, workcell, plan.objects, plan);

@@ -9,6 +9,7 @@
 #include <set>
 
 #include "cli/run_time.hpp"
+#include "reconstruct/calibration_list.hpp"
 #include "vantage/raycore/error.hpp"
 #include "vantage/reconstruction/calibration.hpp"
 #include "vantage/reconstruction/color_image.hpp"
@@ -24,27 +25,6 @@ namespace fs = std::filesystem;
 const std::vector<fs::path>& calibrations_of(const Workcell& workcell,
                                              const ObserveOptions& options) {
   return options.calibrations.empty() ? workcell.calibrations : options.calibrations;
-}
-
-std::vector<Lens> lenses_of(const BopScene& scene, const std::vector<fs::path>& calibrations) {
-  if (calibrations.size() > 1 && calibrations.size() != scene.images.size()) {
-    throw bad_input("calibration",
-                    fmt::format("found {} files for {} images; expected one for all cameras, or "
-                                "one for each image in the order of their ids",
-                                calibrations.size(), scene.images.size()));
-  }
-  std::vector<Lens> lenses;
-  for (const BopImage& image : scene.images) {
-    if (calibrations.empty()) {
-      lenses.emplace_back(image.intrinsics, Distortion{}, image.place);
-    } else if (calibrations.size() == 1 && !lenses.empty()) {
-      lenses.push_back(lenses.front());
-    } else {
-      lenses.push_back(read_calibration(calibrations[calibrations.size() == 1 ? 0 : lenses.size()],
-                                        image.intrinsics.width, image.intrinsics.height));
-    }
-  }
-  return lenses;
 }
 
 /// Appends what other detectors saw.
@@ -117,12 +97,13 @@ CameraSource camera_source_of(const std::string& name) {
 BopScene load_dataset(const fs::path& folder, const Workcell& workcell,
                       std::span<const int> only_ids, const ObserveOptions& options) {
   const std::vector<fs::path>& calibrations = calibrations_of(workcell, options);
-  const bool is_scene = fs::exists(folder / "scene_camera.json") || !fs::is_directory(folder);
+  const bool is_scene = is_bop_scene(folder) || !fs::is_directory(folder);
   if (is_scene) return load_bop_scene(folder, workcell.sensor_range, only_ids);
   if (calibrations.size() != 1) {
     throw bad_input((folder / "scene_camera.json").string(),
                     "missing; expected a BOP scene folder, or photographs by one camera and its "
-                    "calibration: --calibration camera.yml");
+                    "calibration: --calibration camera.yml; recordings by TUM RGB-D, nerfstudio, "
+                    "COLMAP and ScanNet: vantage import");
   }
   BopScene scene = load_photographs(folder, read_calibration(calibrations.front()).intrinsics(),
                                     workcell.sensor_range);
@@ -149,7 +130,7 @@ ObservedScene observe(const BopScene& scene, const Workcell& workcell,
   ObservedScene observed{{},
                          std::vector<std::vector<Observation>>(count),
                          std::vector<CameraLocation>(count),
-                         calibrations};
+                         calibration_files(calibrations)};
   const std::vector<Lens> lenses = lenses_of(scene, calibrations);
   for (std::size_t i = 0; i < count; ++i) {
     observed.views.push_back({std::to_string(scene.images[i].id), lenses[i]});

@@ -24,8 +24,8 @@ CameraSource camera_source_of(const std::string& name);
 
 /// How to make features of pictures.
 struct ObserveOptions {
-  /// OpenCV calibration files: one for all cameras, or one for each image. Empty: the workcell's,
-  /// else the dataset's intrinsics, without distortion.
+  /// Calibration files, as `lenses_of` has them. Empty: the workcell's, else the dataset's
+  /// intrinsics, without distortion.
   std::vector<std::filesystem::path> calibrations = {};
   std::vector<std::filesystem::path> observations = {};  ///< of other detectors, as JSON lines
   bool detect_markers = true;                            ///< in the pictures

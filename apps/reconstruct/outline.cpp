@@ -21,6 +21,10 @@ constexpr double kNearest_m = 1e-3;
 std::optional<Eigen::Vector2d> pixel_of(const Eigen::Vector3d& p_cam, const Lens& lens) {
   if (p_cam.z() < kNearest_m) return std::nullopt;
   const Intrinsics& k = lens.intrinsics();
+  if (lens.distortion().model == LensModel::fisheye) {
+    if (p_cam.head<2>().norm() > lens.reach() * p_cam.z()) return std::nullopt;
+    return lens.project(p_cam);
+  }
   // Far outside of the image the lens' polynomial means nothing.
   const Eigen::Vector2d straight(k.fx * p_cam.x() / p_cam.z() + k.cx,
                                  k.fy * p_cam.y() / p_cam.z() + k.cy);

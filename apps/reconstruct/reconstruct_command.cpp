@@ -13,6 +13,7 @@
 #include "cli/workers.hpp"
 #include "reconstruct/overlay_picture.hpp"
 #include "reconstruct/reconstruct_options.hpp"
+#include "reconstruct/scene_warnings.hpp"
 #include "reconstruct/world_json.hpp"
 #include "vantage/raycore/detail/file.hpp"
 #include "vantage/raycore/image_io.hpp"
@@ -42,35 +43,9 @@ void write_overlays(const BopScene& scene, const SceneReconstruction& reconstruc
   }
 }
 
-void warn_of(const BopScene& scene, const SceneReconstruction& reconstruction,
-             const std::vector<KnownObject>& objects) {
-  for (std::size_t i = 0; i < scene.images.size(); ++i) {
-    const CameraLocation& location = reconstruction.observed.locations[i];
-    if (!location.reason.empty()) {
-      spdlog::warn("skipping image {}: {}", scene.images[i].id, location.reason);
-    }
-    if (!location.warning.empty()) {
-      spdlog::warn("image {}: {}", scene.images[i].id, location.warning);
-    }
-  }
-  for (std::size_t i = 0; i < objects.size(); ++i) {
-    const std::string& warning = reconstruction.result.objects[i].warning;
-    if (!warning.empty()) spdlog::warn("{}: {}", objects[i].name, warning);
-  }
-}
-
-/// What was odd about the mesh files of the types that are looked for.
-void warn_of_meshes(const KnowledgeBase& knowledge) {
-  for (const TypePtr& type : knowledge.types()) {
-    for (const std::string& remark : type->mesh->remarks()) {
-      spdlog::warn("type {}: {}", type->name, remark);
-    }
-  }
-}
-
 WorldRecord record_of(const ReconstructCommand& command, const BopScene& scene,
                       const Workcell& workcell, const SceneReconstruction& reconstruction) {
-  WorldRecord record{workcell.files, config_of(command.how), 0, 0};
+  WorldRecord record{workcell.files, config_of(command.how)};
   record.config["dataset"] = command.dataset.string();
   record.config["workcell"] = command.workcell.string();
   record.config["images"] = command.images;
@@ -85,9 +60,9 @@ ExitCode reconstruct_command(const ReconstructCommand& command) {
   const StopToken stop;
   const SignalHandler interrupt({stop});
   Workers workers(command.threads);
-  const SceneReconstructionOptions options = options_of(command.how);
+  SceneReconstructionOptions options = options_of(command.how);
+  options.cameras_suffice = true;
   const Workcell workcell = load_workcell(command.workcell);
-  warn_of_meshes(*workcell.knowledge);
   const BopScene scene = load_dataset(command.dataset, workcell, command.images, options.observe);
   const double load_s = seconds_since(start);
 
@@ -98,8 +73,13 @@ ExitCode reconstruct_command(const ReconstructCommand& command) {
   });
   if (stop.stop_requested()) return ExitCode::cancelled;
   const std::vector<KnownObject> objects = known_objects(reconstruction.result);
-  warn_of(scene, reconstruction, objects);
   WorldRecord record = record_of(command, scene, workcell, reconstruction);
+  record.warnings = type_warnings(workcell);
+  for (const auto& more : {camera_warnings(scene, reconstruction.observed),
+                           object_warnings(reconstruction.result, objects)}) {
+    record.warnings.insert(record.warnings.end(), more.begin(), more.end());
+  }
+  for (const std::string& warning : record.warnings) spdlog::warn("{}", warning);
   record.load_s = load_s;
   record.total_s = seconds_since(start);
   const auto json = world_to_json(scene, workcell, reconstruction, objects, record);
@@ -124,8 +104,9 @@ void add_reconstruct_command(CLI::App& app, Action& action) {
   verb->add_option("dataset", command->dataset,
                    "BOP scene folder; or one with photographs, if there is a calibration")
       ->required();
-  verb->add_option("--workcell", command->workcell,
-                   "Workcell file (YAML) with knowledge_base, and board if cameras have no poses")
+  verb->add_option(
+          "--workcell", command->workcell,
+          "Workcell file (YAML) with knowledge_base or board, and board if cameras have no poses")
       ->option_text("FILE")
       ->required()
       ->group("Input");

@@ -13,11 +13,13 @@ void ReconstructCommandOptions::add_to(CLI::App& verb) {
       ->check(CLI::IsMember({"auto", "board", "dataset"}))
       ->capture_default_str()
       ->group(heading);
-  verb.add_option("--calibration", calibrations,
-                  "OpenCV calibration: one file for all cameras, or one for each image; overrides "
-                  "the workcell's")
+  verb.add_option(
+          "--calibration", calibrations,
+          "Calibration by OpenCV, ROS or Kalibr: one file for all cameras, one for each image "
+          "in the order of their ids, or by id (0=a.yml,2=b.yml); FILE#CAMERA where a file "
+          "has several; overrides the workcell's")
       ->delimiter(',')
-      ->option_text("FILE,…")
+      ->option_text("[ID=]FILE,…")
       ->group(heading);
   verb.add_option("--features", features,
                   "Detections of other detectors: JSON lines, see "

@@ -13,11 +13,15 @@
 namespace vantage {
 namespace {
 
-void check_knowledge(const Workcell& workcell) {
+bool is_recognisable(const TypePtr& type) {
+  return !type->features.empty();
+}
+
+/// @returns whether there are types to look for.
+bool check_knowledge(const Workcell& workcell, bool cameras_suffice) {
   const auto& types = workcell.knowledge->types();
-  const bool recognisable = std::any_of(types.begin(), types.end(),
-                                        [](const TypePtr& t) { return !t->features.empty(); });
-  if (recognisable) return;
+  if (std::any_of(types.begin(), types.end(), is_recognisable)) return true;
+  if (cameras_suffice && workcell.board && !workcell.board->markers.empty()) return false;
   throw bad_input(workcell.files.empty() ? "workcell" : workcell.files.front().string(),
                   types.empty()
                       ? "there is no knowledge_base, so nothing is known by which objects "
@@ -97,13 +101,14 @@ Reconstruction reconstruct(ReconstructionMethod method, std::span<const CameraVi
 SceneReconstruction reconstruct_scene(const BopScene& scene, const Workcell& workcell,
                                       const SceneReconstructionOptions& settings,
                                       const StopToken& stop) {
-  check_knowledge(workcell);
+  const bool has_types = check_knowledge(workcell, settings.cameras_suffice);
   SceneReconstruction all{observe(scene, workcell, settings.observe, stop), {}, 0};
   if (stop.stop_requested()) {
     all.result.stopped = stop.reason();
     return all;
   }
   check_cameras(scene, all.observed);
+  if (!has_types) return all;
   const auto start = std::chrono::steady_clock::now();
   all.result =
       reconstruct(settings.method, all.observed.views, *workcell.knowledge, settings.options, stop);

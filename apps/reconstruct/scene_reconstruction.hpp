@@ -22,6 +22,8 @@ struct SceneReconstructionOptions {
   ReconstructionMethod method = ReconstructionMethod::pnp;
   ObserveOptions observe = {};
   ReconstructOptions options = {};
+  /// Without types to recognise, the poses of cameras that a board tells are enough of a result.
+  bool cameras_suffice = false;
 };
 
 /// What stands in the recorded scene.
@@ -41,7 +43,8 @@ void check_cameras(const BopScene& scene, const ObservedScene& observed);
 
 /// Detects, locates and reconstructs. Runs in the caller's task arena.
 /// @throws Error bad_input as `observe` does; if no camera could be located, with each one's
-/// reason; and for a workcell whose knowledge base has no type with features.
+/// reason; and for a workcell whose knowledge base has no type with features, unless it has a board
+/// and `cameras_suffice`.
 SceneReconstruction reconstruct_scene(const BopScene& scene, const Workcell& workcell,
                                       const SceneReconstructionOptions& settings,
                                       const StopToken& stop = {});

@@ -49,6 +49,7 @@ Json camera_json(const BopImage& image, const CameraView& view, const CameraLoca
               {"fy", k.fy},
               {"cx", k.cx},
               {"cy", k.cy}}},
+            {"lens_model", d.model == LensModel::fisheye ? "fisheye" : "brown_conrady"},
             {"distortion", {d.k1, d.k2, d.p1, d.p2, d.k3, d.k4, d.k5, d.k6}}};
   for (const LocatedPose& other : location.alternatives) {
     json["alternatives"].push_back(located_json(other));
@@ -178,6 +179,7 @@ Json world_to_json(const BopScene& scene, const Workcell& workcell,
           {"cameras", cameras},
           {"objects", found},
           {"unexplained", unexplained},
+          {"warnings", record.warnings},
           {"bop", bop_json(scene, workcell, reconstruction)},
           {"timing_ms",
            {{"load", milliseconds(record.load_s)},

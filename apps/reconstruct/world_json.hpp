@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <string>
 #include <vector>
 
 #include "reconstruct/scene_reconstruction.hpp"
@@ -12,6 +13,7 @@ namespace vantage {
 struct WorldRecord {
   std::vector<std::filesystem::path> inputs;
   nlohmann::ordered_json config;
+  std::vector<std::string> warnings = {};
   double load_s = 0;
   double total_s = 0;
 };

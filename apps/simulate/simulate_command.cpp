@@ -29,7 +29,7 @@ struct SimulateOptions {
   bool ideal_depth = false, no_second_imager = false, no_projector = false;
   std::optional<double> max_incidence_deg;
   nlohmann::json given = nlohmann::json::object();  // fields of the sensors
-  std::vector<double> distortion;
+  std::vector<double> distortion, fisheye;
   bool json = false;
   int threads = 0;
 };
@@ -42,7 +42,8 @@ void add_random_options(CLI::App& verb, SimulateOptions& a) {
                   "random_objects")
       ->check(CLI::Range(0, 10000));
   verb.add_option("--types", s.types,
-                  "Types of the random objects, taken in turns, e.g. red_cube,duck")
+                  "Types of the random objects, taken in turns, e.g. red_cube,duck; a name above "
+                  "others in the hierarchy is all of them, e.g. cube")
       ->delimiter(',');
 }
 
@@ -53,6 +54,11 @@ void add_color_options(CLI::App& verb, SimulateOptions& a) {
                   "Brown-Conrady distortion of the colour lens (default: none)")
       ->option_text("K1 K2 P1 P2 K3")
       ->expected(5)
+      ->group("Colour images");
+  verb.add_option("--fisheye", a.fisheye, "A fisheye colour lens, as cv::fisheye has it")
+      ->option_text("K1 K2 K3 K4")
+      ->expected(4)
+      ->excludes("--distortion")
       ->group("Colour images");
 }
 
@@ -99,6 +105,10 @@ RecordingOptions recording_of(const SimulateOptions& a, const Workcell& workcell
   if (!a.distortion.empty()) {
     const double* d = a.distortion.data();
     recording.color.distortion = {d[0], d[1], d[2], d[3], d[4]};
+  }
+  if (!a.fisheye.empty()) {
+    const double* d = a.fisheye.data();
+    recording.color.distortion = Distortion::fisheye(d[0], d[1], d[2], d[3]);
   }
   return recording;
 }

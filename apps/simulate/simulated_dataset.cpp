@@ -13,6 +13,7 @@
 #include "vantage/raycore/error.hpp"
 #include "vantage/raycore/image_io.hpp"
 #include "vantage/raycore/lens.hpp"
+#include "vantage/reconstruction/calibration.hpp"
 
 namespace vantage {
 namespace {
@@ -51,17 +52,6 @@ RawDepthImage to_counts(const DepthImage& depth, double depth_scale_mm) {
   return counts;
 }
 
-/// The calibration file that OpenCV's tools read and write.
-std::string calibration_yaml(const Intrinsics& k, const Distortion& d) {
-  return fmt::format(
-      "%YAML:1.0\n---\nimage_width: {}\nimage_height: {}\n"
-      "camera_matrix: !!opencv-matrix\n   rows: 3\n   cols: 3\n   dt: d\n"
-      "   data: [ {}, 0., {}, 0., {}, {}, 0., 0., 1. ]\n"
-      "distortion_coefficients: !!opencv-matrix\n   rows: 5\n   cols: 1\n   dt: d\n"
-      "   data: [ {}, {}, {}, {}, {} ]\n",
-      k.width, k.height, k.fx, k.cx, k.fy, k.cy, d.k1, d.k2, d.p1, d.p2, d.k3);
-}
-
 void check_depth_range(const CellCamera& camera, double depth_scale_mm) {
   const double most = 65535 * depth_scale_mm / kMillimetres, far_m = camera.camera.range().far_m;
   if (far_m <= most) return;
@@ -77,8 +67,8 @@ void write_calibrations(const Workcell& workcell, const RecordingOptions& option
                         const fs::path& folder) {
   const std::vector<std::string> names = calibration_names(workcell, options);
   for (std::size_t i = 0; i < names.size(); ++i) {
-    write_file(folder / names[i],
-               calibration_yaml(workcell.cameras[i].camera.intrinsics(), options.color.distortion));
+    const Lens lens(workcell.cameras[i].camera.intrinsics(), options.color.distortion);
+    write_file(folder / names[i], calibration_yaml(lens));
   }
 }
 
@@ -108,8 +98,10 @@ void check_recording(const Workcell& workcell, const RecordingOptions& options) 
   options.depth.check("depth sensor");
   for (const CellCamera& camera : workcell.cameras) {
     check_depth_range(camera, options.depth_scale_mm);
+    const bool fisheye = options.color.distortion.model == LensModel::fisheye;
     const Lens lens(camera.camera.intrinsics(), options.color.distortion,
-                    "--distortion");  // or why it is none
+                    fisheye ? "--fisheye" : "--distortion");  // or why it is none
+    if (!lens.covers_image()) lens.sight(-0.5, -0.5, {});     // likewise
   }
 }
 

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "cli/inputs_json.hpp"
 #include "cli/volume_text.hpp"
 #include "options/field_json.hpp"
@@ -24,6 +26,10 @@ Json color_json(ColorSensor color) {
   const Distortion& d = color.distortion;
   Json json{{"samples_per_pixel", color.samples_per_pixel},
             {"distortion", {d.k1, d.k2, d.p1, d.p2, d.k3}}};
+  if (d.model == LensModel::fisheye) {
+    json["lens_model"] = "fisheye";
+    json["distortion"] = {d.k1, d.k2, d.k3, d.k4};
+  }
   json.update(to_json(fields_of(color)));
   return json;
 }
@@ -63,7 +69,13 @@ void prepare_objects(Workcell& workcell, SimulationOptions& options) {
     if (!options.types.empty()) {
       random.types.clear();
       for (const std::string& name : options.types) {
-        random.types.push_back(workcell.knowledge->get(name, "--types"));
+        const auto types = workcell.knowledge->types_that_are(name);
+        if (types.empty()) workcell.knowledge->get(name, "--types");  // says which names there are
+        for (const TypePtr& type : types) {
+          if (std::ranges::find(random.types, type) == random.types.end()) {
+            random.types.push_back(type);
+          }
+        }
       }
     } else if (random.types.empty()) {
       random.types = workcell.knowledge->types();

@@ -12,6 +12,7 @@
 #include "documents/yaml_document.hpp"
 #include "simulator/markers/marker_print.hpp"
 #include "vantage/raycore/solids.hpp"
+#include "workcell/board_pattern.hpp"
 #include "workcell/object_appearance.hpp"
 
 namespace vantage {
@@ -23,7 +24,8 @@ Marker read_board_marker(const Value& value, const Value& dictionary) {
   check_marker(dictionary, value["id"]);
   const double turn = value.get("turn", 0.0);
   const Value at = value["at_m"];
-  return {dictionary.as<std::string>(), value["id"].as<int>(), value["size_m"].as<double>(),
+  return {marker_dictionary(dictionary.as<std::string>()), value["id"].as<int>(),
+          value["size_m"].as<double>(),
           Pose::from_rotation(Eigen::AngleAxisd(turn, Eigen::Vector3d::UnitZ()).toRotationMatrix(),
                               {at.number(0), at.number(1), 0}, value.place())};
 }
@@ -33,12 +35,13 @@ class FreeMarkers {
  public:
   explicit FreeMarkers(const KnowledgeBase& knowledge) : knowledge_(knowledge) {}
 
+  /// @param value where the marker stands, for messages.
   void take(const Marker& marker, const Value& value) {
     const FeatureKey key = marker_key(marker.dictionary, marker.id);
     const auto [first, is_new] = places_.try_emplace(key, value.place());
-    if (!is_new) fail(marker, first->second, value["id"]);
+    if (!is_new) fail(marker, first->second, value);
     const auto& types = knowledge_.with_feature(key);
-    if (!types.empty()) fail(marker, "the type " + types.front().type->name, value["id"]);
+    if (!types.empty()) fail(marker, "the type " + types.front().type->name, value);
   }
 
  private:
@@ -53,16 +56,56 @@ class FreeMarkers {
   std::map<FeatureKey, std::string> places_;
 };
 
+/// The one of its three ways to say where its markers are.
+std::string layout_of(const Value& value) {
+  std::vector<std::string> given;
+  for (const char* key : {"markers", "charuco", "grid"}) {
+    if (value.has(key)) given.emplace_back(key);
+  }
+  if (given.size() == 1) return given.front();
+  throw value.error(fmt::format("found {} of the keys markers, charuco and grid; expected one",
+                                given.empty() ? "none" : std::to_string(given.size())));
+}
+
+void read_listed_markers(const Value& value, Board& board, FreeMarkers& free) {
+  for (const char* key : {"size_m", "dictionary"}) {
+    if (!value.has(key)) {
+      throw value.error(
+          fmt::format("the key \"{}\" is missing; a board with markers needs it", key));
+    }
+  }
+  for (const Value& element : value["markers"].elements()) {
+    board.markers.push_back(read_board_marker(element, value["dictionary"]));
+    free.take(board.markers.back(), element["id"]);
+  }
+}
+
 Board read_mapping(const Value& value, const KnowledgeBase& knowledge) {
-  Board board{.place = value.place(),
-              .size_m = {value["size_m"].number(0), value["size_m"].number(1)}};
+  Board board{.place = value.place(), .size_m = Eigen::Vector2d::Zero()};
   board.thickness_m = value.get("thickness_m", board.thickness_m);
   if (value.has("color")) board.color = read_color(value["color"]);
   FreeMarkers free(knowledge);
-  for (const Value& element : value["markers"].elements()) {
-    board.markers.push_back(read_board_marker(element, value["dictionary"]));
-    free.take(board.markers.back(), element);
+  const std::string layout = layout_of(value);
+  if (layout == "markers") {
+    read_listed_markers(value, board, free);
+  } else {
+    if (value.has("dictionary")) {
+      throw value["dictionary"].error(
+          fmt::format("this key does not belong here; {} has its own", layout));
+    }
+    const Value pattern = value[layout.c_str()];
+    BoardPattern found = layout == "charuco" ? read_charuco(pattern) : read_grid(pattern);
+    board.size_m = found.size_m, board.markers = std::move(found.markers);
+    for (const Marker& marker : board.markers) free.take(marker, pattern);
   }
+  if (!value.has("size_m")) return board;
+  const Eigen::Vector2d size_m(value["size_m"].number(0), value["size_m"].number(1));
+  if ((size_m.array() < board.size_m.array() - 1e-9).any()) {
+    throw value["size_m"].error(fmt::format("found {} x {} m, less than the {} of {} x {} m on it",
+                                            size_m.x(), size_m.y(), layout, board.size_m.x(),
+                                            board.size_m.y()));
+  }
+  board.size_m = size_m;
   return board;
 }
 

@@ -26,7 +26,7 @@ void check_marker(const Value& dictionary, const Value& id) {
 
 Marker read_marker(const Value& feature, const std::optional<Eigen::Vector3d>& box_size_m) {
   check_marker(feature["dictionary"], feature["value"]);
-  Marker marker{feature["dictionary"].as<std::string>(),
+  Marker marker{marker_dictionary(feature["dictionary"].as<std::string>()),
                 feature["value"].as<int>(),
                 feature["size_m"].as<double>(),
                 {}};

@@ -32,9 +32,63 @@ Eigen::Quaterniond read_quaternion(const Value& value) {
   return Pose::from_quaternion(found, Eigen::Vector3d::Zero(), value.place()).quaternion();
 }
 
+namespace {
+
+Pose read_matrix(const Value& value) {
+  const std::vector<Value> rows = value.elements();
+  Eigen::Matrix4d m;
+  for (int i = 0; i < 4; ++i) {
+    for (int j = 0; j < 4; ++j) m(i, j) = rows[std::size_t(i)].number(std::size_t(j));
+  }
+  if (m.row(3) != Eigen::RowVector4d(0, 0, 0, 1)) {
+    throw rows[3].error(
+        "the last row of a pose's matrix is [0, 0, 0, 1]; expected row by row, "
+        "rotation to the left and translation in metres to the right");
+  }
+  return Pose::from_rotation(m.topLeftCorner<3, 3>(), m.topRightCorner<3, 1>(), value.place());
+}
+
+/// Roll around x, then pitch around y, then yaw around z, all of them the fixed frame's (URDF).
+Eigen::Matrix3d rotation_of_rpy(const Eigen::Vector3d& rpy) {
+  return (Eigen::AngleAxisd(rpy.z(), Eigen::Vector3d::UnitZ()) *
+          Eigen::AngleAxisd(rpy.y(), Eigen::Vector3d::UnitY()) *
+          Eigen::AngleAxisd(rpy.x(), Eigen::Vector3d::UnitX()))
+      .toRotationMatrix();
+}
+
+void check_one_rotation(const Value& value) {
+  const char* first = nullptr;
+  for (const char* key : {"rotation", "rpy_rad", "look_at_m", "matrix"}) {
+    if (!value.has(key)) continue;
+    if (first) {
+      throw value[key].error(
+          fmt::format("the rotation is given twice, by {} and by {}; remove one "
+                      "of them",
+                      first, key));
+    }
+    first = key;
+  }
+  if (value.has("matrix") && value.has("translation_m")) {
+    throw value["translation_m"].error("the matrix has the translation already; remove this key");
+  }
+}
+
+}  // namespace
+
 Pose read_pose(const Value& value) {
+  check_one_rotation(value);
+  if (value.has("matrix")) return read_matrix(value["matrix"]);
   Eigen::Vector3d translation = Eigen::Vector3d::Zero();
   if (value.has("translation_m")) translation = value["translation_m"].vector();
+  if (value.has("rpy_rad")) {
+    return Pose::from_rotation(rotation_of_rpy(value["rpy_rad"].vector()), translation,
+                               value.place());
+  }
+  if (value.has("look_at_m")) {
+    const Eigen::Vector3d target = value["look_at_m"].vector();
+    if (target == translation) throw value["look_at_m"].error("it is where the pose itself is");
+    return Pose::looking_at(translation, target);
+  }
   if (!value.has("rotation")) return Pose::from_translation(translation);
   const Eigen::Quaterniond rotation = read_quaternion(value["rotation"]);
   return Pose::from_quaternion(rotation, translation, value.place());

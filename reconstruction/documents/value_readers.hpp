@@ -19,6 +19,7 @@ Box read_box(const Value& value);
 DepthRange read_range(const Value& value);
 Intrinsics read_intrinsics(const Value& value);
 Eigen::Quaterniond read_quaternion(const Value& value);
+/// The rotation as a quaternion, `rpy_rad`, or by what the z axis looks at; or the whole `matrix`.
 Pose read_pose(const Value& value);
 Eigen::Vector3f read_color(const Value& value);
 

@@ -71,6 +71,60 @@ TEST_CASE("a simulated cell is reconstructed by every method, its cameras found 
   }
 }
 
+TEST_CASE("through fisheye lenses, objects are found as through others") {
+  const test::TemporaryFolder folder;
+  const fs::path data = folder / "castle";
+  make_dataset("castle", data, "--ideal-depth --fisheye 0.08 -0.02 0.01 -0.003");
+  forget_cameras(data);
+  const auto result = reconstruct(data, "--json -o" + quoted(folder / "out"));
+  CAPTURE(result.err);
+  REQUIRE(result.exit_code == 0);
+  const json world = result.json();
+  CHECK(world["objects"].size() == 5);
+  for (const json& camera : world["cameras"]) CHECK(camera["lens_model"] == "fisheye");
+  CHECK(worst_offset_mm(world, data) < 1.0);
+  CHECK(fs::exists(folder / "out/overlay_000000.png"));
+}
+
+TEST_CASE("a board locates cameras without any knowledge base") {
+  const test::TemporaryFolder folder;
+  const fs::path data = folder / "wall";
+  make_dataset("wall", data);
+  const fs::path cell = folder.write(
+      "board.yaml", "work_area: {min_m: [-0.3, -0.3, 0], max_m: [0.3, 0.3, 0.3]}\nboard: " +
+                        (test::assets() / "workcells/boards/board_50x35.yaml").string() + "\n");
+  const auto board = run_vantage("reconstruct" + quoted(data) +
+                                 " --cameras board --json --workcell" + quoted(cell));
+  CAPTURE(board.err);
+  REQUIRE(board.exit_code == 0);
+  const json world = board.json();
+  CHECK(world["objects"].empty());
+  CHECK_FALSE(world["cameras"].empty());
+  const json truth = json::parse(test::read_text(data / "scene_camera.json"));
+  forget_cameras(data);
+  const auto plan =
+      run_vantage("plan" + quoted(data) + " --voxel-size 0.02 --json --workcell" + quoted(cell));
+  CAPTURE(plan.err);
+  CHECK(plan.exit_code == 0);
+}
+
+TEST_CASE("objects that are given and objects that are recognised stand beside one another") {
+  const test::TemporaryFolder folder;
+  const fs::path data = folder / "wall";
+  make_dataset("wall", data);
+  const auto objects = [&](const std::string& how) {
+    const auto result = run_vantage("plan" + quoted(data) + " --voxel-size 0.02 --json --workcell" +
+                                    quoted(data / "workcell.yaml") + " --objects " + how);
+    CAPTURE(result.err);
+    REQUIRE(result.exit_code == 0);
+    return result.json();
+  };
+  // Everything in this cell is given and recognised: none of it is there twice.
+  const double given = objects("given")["volumes_m3"]["occupied"];
+  const double both = objects("given+pnp")["volumes_m3"]["occupied"];
+  CHECK(std::abs(both - given) < 0.1 * given);
+}
+
 TEST_CASE("a plan takes the world that was reconstructed, or reconstructs it itself") {
   const test::TemporaryFolder folder;
   const fs::path data = folder / "wall", out = folder / "out";

@@ -160,6 +160,8 @@ TEST_CASE("random objects of the command line lie on the board and are in the tr
   const auto truth = nlohmann::json::parse(test::read_text(folder / "data/scene_gt.json"));
   CHECK(truth["0"].size() == result.json()["known_objects"].get<std::size_t>());
   CHECK(truth["0"].size() == 8);
+  // A name above others in the hierarchy stands for all of them.
+  CHECK(simulate("wall", folder / "cubes", "--objects 3 --types cube").exit_code == 0);
   const auto unknown = simulate("wall", folder / "x", "--objects 3 --types red_cub");
   CHECK(unknown.exit_code == 3);
   CHECK(unknown.err.find("red_cube") != std::string::npos);

@@ -20,7 +20,8 @@ inline const std::vector<Lens>& some_lenses() {
       {kSeenIntrinsics, {}},
       {kSeenIntrinsics, {0.1, -0.05, 0.001, -0.002, 0.01}},
       {kSeenIntrinsics, {-0.28, 0.09, 0, 0, 0}},
-      {kSeenIntrinsics, {0.3, 0.05, 0.001, 0, 0.01, 0.35, 0.02, 0.005}}};
+      {kSeenIntrinsics, {0.3, 0.05, 0.001, 0, 0.01, 0.35, 0.02, 0.005}},
+      {kSeenIntrinsics, Distortion::fisheye(0.08, -0.02, 0.01, -0.003)}};
   return lenses;
 }
 

@@ -24,7 +24,9 @@ ColorPainter::ColorPainter(const SimulatedScene& scene, const Lighting& lighting
       colors_(scene.bodies()),
       lamp_(lighting),
       background_(lighting.background.unaryExpr(&srgb_to_linear)) {
-  if (!sensor.distortion.none()) lens_.emplace(camera.intrinsics(), sensor.distortion);
+  if (sensor.distortion.none()) return;
+  lens_.emplace(camera.intrinsics(), sensor.distortion);
+  if (!lens_->covers_image()) lens_->sight(-0.5, -0.5, {});  // says which pixel looks too far aside
 }
 
 std::size_t ColorPainter::band_count() const {

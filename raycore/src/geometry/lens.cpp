@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 
+#include "geometry/fisheye.hpp"
 #include "vantage/raycore/error.hpp"
 
 namespace vantage {
@@ -23,13 +24,26 @@ std::array<double, 8> coefficients(const Distortion& d) {
   return {d.k1, d.k2, d.p1, d.p2, d.k3, d.k4, d.k5, d.k6};
 }
 
+std::string text_of(const Distortion& d) {
+  if (d.model == LensModel::fisheye) {
+    return fmt::format("k1 to k4 = {}, {}, {}, {} of the fisheye model", d.k1, d.k2, d.k3, d.k4);
+  }
+  return fmt::format("k1, k2, p1, p2, k3 to k6 = {}", fmt::join(coefficients(d), ", "));
+}
+
 Error folds(const std::string& where, const Distortion& d, double u, double v) {
   return bad_input(where,
-                   fmt::format("with k1, k2, p1, p2, k3 to k6 = {} the image folds over before "
-                               "pixel ({:.1f}, {:.1f}); expected coefficients that hold up to the "
-                               "border of the image, as a calibration gives whose pictures reach "
-                               "its corners",
-                               fmt::join(coefficients(d), ", "), u, v));
+                   fmt::format("with {} the image folds over before pixel ({:.1f}, {:.1f}); "
+                               "expected coefficients that hold up to the border of the image, as "
+                               "a calibration gives whose pictures reach its corners",
+                               text_of(d), u, v));
+}
+
+Error too_wide(const std::string& where, double u, double v) {
+  return bad_input(where, fmt::format("pixel ({:.1f}, {:.1f}) looks more than {:.0f}° off the "
+                                      "optical axis, where fisheye images are not used; crop "
+                                      "the image or look at its middle",
+                                      u, v, Lens::kMaxFisheyeAngle * 57.29577951308232));
 }
 
 /// The factor (1 + k1 r² + k2 r⁴ + k3 r⁶) / (1 + k4 r² + k5 r⁴ + k6 r⁶), and its derivative by r².
@@ -50,20 +64,39 @@ struct Radial {
 
 Lens::Lens(const Intrinsics& intrinsics, const Distortion& distortion, std::string_view where)
     : k_(intrinsics), d_(distortion), where_(where) {
+  check_coefficients();
+  look_at_border();
+}
+
+void Lens::check_coefficients() const {
   for (const double c : coefficients(d_)) {
     if (std::isfinite(c)) continue;
     throw bad_input(where_, fmt::format("a coefficient is {}; expected finite numbers", c));
   }
+  if (d_.model == LensModel::fisheye && (d_.p1 != 0 || d_.p2 != 0 || d_.k5 != 0 || d_.k6 != 0)) {
+    throw bad_input(where_,
+                    "a fisheye lens has coefficients k1 to k4 alone; expected 0 for p1, "
+                    "p2, k5 and k6");
+  }
+}
+
+void Lens::look_at_border() {
+  const bool is_fisheye = d_.model == LensModel::fisheye;
+  const double max_angle = is_fisheye ? detail::Fisheye(d_).monotone_up_to(kMaxFisheyeAngle) : 0;
+  const auto look_at = [&](double u, double v) {
+    is_fisheye ? find_fisheye_reach_at(u, v, max_angle) : follow_line_to(u, v);
+  };
   const double right = k_.width - 0.5, bottom = k_.height - 0.5;
   const auto along = [](double length, const auto& look) {
     const int lines = int(std::ceil(length / kLineSpacing));
     for (int i = 0; i <= lines; ++i) look(-0.5 + length * i / lines);
   };
-  along(k_.width, [&](double u) { follow_line_to(u, -0.5), follow_line_to(u, bottom); });
-  along(k_.height, [&](double v) { follow_line_to(-0.5, v), follow_line_to(right, v); });
+  along(k_.width, [&](double u) { look_at(u, -0.5), look_at(u, bottom); });
+  along(k_.height, [&](double v) { look_at(-0.5, v), look_at(right, v); });
 }
 
 Eigen::Vector2d Lens::distort(const Eigen::Vector2d& xy) const {
+  if (d_.model == LensModel::fisheye) return detail::Fisheye(d_).distort(xy);
   const double x = xy.x(), y = xy.y(), r2 = x * x + y * y;
   const double radial = Radial(d_, r2).factor;
   return {x * radial + 2 * d_.p1 * x * y + d_.p2 * (r2 + 2 * x * x),
@@ -71,6 +104,7 @@ Eigen::Vector2d Lens::distort(const Eigen::Vector2d& xy) const {
 }
 
 Eigen::Matrix2d Lens::slope(const Eigen::Vector2d& xy) const {
+  if (d_.model == LensModel::fisheye) return detail::Fisheye(d_).slope(xy);
   const double x = xy.x(), y = xy.y(), r2 = x * x + y * y;
   const auto [radial, by_r2] = Radial(d_, r2);
   const double mixed = 2 * x * y * by_r2 + 2 * d_.p1 * x + 2 * d_.p2 * y;
@@ -86,6 +120,9 @@ Eigen::Vector2d Lens::project(const Eigen::Vector3d& p_cam) const {
 }
 
 bool Lens::undistort(const Eigen::Vector2d& distorted, Eigen::Vector2d& xy) const {
+  if (d_.model == LensModel::fisheye) {
+    return detail::Fisheye(d_).undistort(distorted, kMaxFisheyeAngle, xy);
+  }
   for (int step = 0; step < kMaxSteps; ++step) {
     const Eigen::Vector2d off = distort(xy) - distorted;
     const Eigen::Matrix2d by_xy = slope(xy);
@@ -112,10 +149,25 @@ void Lens::follow_line_to(double u, double v) {
   reach_ = std::max(reach_, from.norm());
 }
 
+void Lens::find_fisheye_reach_at(double u, double v, double max_angle) {
+  const Eigen::Vector2d border((u - k_.cx) / k_.fx, (v - k_.cy) / k_.fy);
+  Eigen::Vector2d xy;
+  if (detail::Fisheye(d_).undistort(border, max_angle, xy)) {
+    reach_ = std::max(reach_, xy.norm());
+  } else if (max_angle < kMaxFisheyeAngle) {
+    throw folds(where_, d_, u, v);
+  } else {
+    reach_ = std::tan(kMaxFisheyeAngle);
+    covers_image_ = false;
+  }
+}
+
 PixelSight Lens::sight(double u, double v, const Eigen::Vector2d& guess) const {
   PixelSight result{guess, {}};
   const Eigen::Vector2d distorted((u - k_.cx) / k_.fx, (v - k_.cy) / k_.fy);
-  if (!undistort(distorted, result.xy)) throw folds(where_, d_, u, v);
+  if (!undistort(distorted, result.xy)) {
+    throw d_.model == LensModel::fisheye ? too_wide(where_, u, v) : folds(where_, d_, u, v);
+  }
   result.per_pixel = slope(result.xy).inverse();
   result.per_pixel.col(0) /= k_.fx;
   result.per_pixel.col(1) /= k_.fy;

@@ -5,59 +5,76 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <deque>
 #include <map>
 #include <optional>
 #include <string>
 #include <utility>
 
 #include "dataset/bop_entry.hpp"
+#include "dataset/bop_sensors.hpp"
 #include "dataset/image_header.hpp"
 #include "dataset/json_file.hpp"
+#include "images/depth_file.hpp"
+#include "images/numbered_images.hpp"
 #include "vantage/raycore/detail/file.hpp"
 #include "vantage/raycore/error.hpp"
-#include "vantage/raycore/image_io.hpp"
 
 namespace vantage {
 namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
+using reconstruction::detail::BopSensor;
 using reconstruction::detail::Entry;
 using reconstruction::detail::excerpt;
 using reconstruction::detail::ImageSize;
+using reconstruction::detail::NumberedImages;
 
-using Entries = std::map<int, Entry>;
+/// One image of a sensor.
+struct SensorEntry {
+  const BopSensor& sensor;
+  int number;  ///< of the image, in the names of its files
+  Entry entry;
+};
+
+using Entries = std::map<int, SensorEntry>;
 
 constexpr double kNotableSaturation = 0.001;  ///< share of an image's pixels
 
-Entries entries_by_id(const fs::path& file, const json& root) {
+/// Adds the entries of a sensor's file, by the ids of its images among all sensors'.
+void add_entries(const BopSensor& sensor, const json& root, Entries& entries) {
+  const fs::path& file = sensor.camera_file;
   if (!root.is_object() || root.empty()) {
     throw bad_input(file.string(), fmt::format("found {}; expected an object with one entry per "
                                                "image, such as \"0\": {{\"cam_K\": …}}",
                                                excerpt(root)));
   }
-  Entries entries;
   for (const auto& [key, value] : root.items()) {
-    const int id = reconstruction::detail::id_of(
-        key, "image", fmt::format("{}: {}", file.string(), json(key).dump()));
-    if (!entries.try_emplace(id, file, key, value).second) {
+    const std::string where = fmt::format("{}: {}", file.string(), json(key).dump());
+    const int id = reconstruction::detail::id_of(key, "image", where);
+    if (id >= reconstruction::detail::kIdsPerSensor) {
+      throw bad_input(where, fmt::format("expected an id of at most {}",
+                                         reconstruction::detail::kIdsPerSensor - 1));
+    }
+    const auto [place, is_new] =
+        entries.try_emplace(sensor.first_id + id, SensorEntry{sensor, id, {file, key, value}});
+    if (!is_new) {
       throw bad_input(fmt::format("{}: \"{}\"", file.string(), key),
                       fmt::format("image {} is there twice; remove one of them", id));
     }
   }
-  return entries;
 }
 
 /// Leaves only the images asked for.
-void select(Entries& entries, std::span<const int> only_ids, const fs::path& file) {
+void select(Entries& entries, std::span<const int> only_ids, const std::string& where) {
   if (only_ids.empty()) return;
   for (const int id : only_ids) {
     if (entries.contains(id)) continue;
     throw bad_input(
-        file.string(),
-        fmt::format("image {} was asked for, but is not here; there are {} images, "
-                    "with ids from {} to {}",
-                    id, entries.size(), entries.begin()->first, entries.rbegin()->first));
+        where, fmt::format("image {} was asked for, but is not here; there are {} images, "
+                           "with ids from {} to {}",
+                           id, entries.size(), entries.begin()->first, entries.rbegin()->first));
   }
   std::erase_if(entries, [&](const auto& entry) {
     return std::find(only_ids.begin(), only_ids.end(), entry.first) == only_ids.end();
@@ -83,13 +100,7 @@ Intrinsics read_intrinsics(const Entry& entry, ImageSize size) {
                                        excerpt(json(k))));
   }
   const Intrinsics intrinsics{size.width, size.height, k[0], k[4], k[2], k[5]};
-  intrinsics.check(where);
-  if (k[2] < 0 || k[2] >= size.width || k[5] < 0 || k[5] >= size.height) {
-    throw bad_input(where, fmt::format("the principal point ({}, {}) lies outside the image of "
-                                       "{} x {} pixels: depth and intrinsics of different size; "
-                                       "scale cam_K as the image was scaled",
-                                       k[2], k[5], size.width, size.height));
-  }
+  intrinsics.check(where);  // the principal point of a cropped image may lie outside of it
   return intrinsics;
 }
 
@@ -127,52 +138,50 @@ void add_stated_size(const Entry& entry, SizeVote& vote) {
   vote.add({width, whole("height")}, entry.where("width, height"));
 }
 
-/// Loads images one by one and notes the files.
+/// Loads images of one sensor one by one and notes the files.
 class Loader {
  public:
-  Loader(BopScene& scene, const DepthRange& range)
-      : scene_(scene), range_(range), has_depth_(fs::is_directory(scene.folder / "depth")) {}
-
-  BopImage load(int id, const Entry& entry) {
-    SizeVote vote;
-    std::shared_ptr<const DepthImage> depth = load_depth(id, entry, vote);
-    const fs::path color = find_color(id, vote);
-    add_stated_size(entry, vote);
-    if (!vote.size()) {
-      throw bad_input(entry.where(), fmt::format("the image's size is not known: there is neither "
-                                                 "{0}.png in depth/ nor {0}.png or {0}.jpg in "
-                                                 "rgb/, nor are there keys width and height",
-                                                 stem(id)));
+  Loader(BopScene& scene, const BopSensor& sensor, const DepthRange& range)
+      : scene_(scene),
+        range_(range),
+        depth_(scene.folder / ("depth" + sensor.suffix), reconstruction::detail::is_depth_image) {
+    for (const char* kind : {"rgb", "gray"}) {
+      colors_.emplace_back(scene.folder / (kind + sensor.suffix),
+                           reconstruction::detail::is_color_image);
     }
+  }
+
+  BopImage load(int id, int number, const Entry& entry) {
+    SizeVote vote;
+    std::shared_ptr<const DepthImage> depth = load_depth(number, entry, vote);
+    const fs::path color = find_color(number, vote);
+    add_stated_size(entry, vote);
+    if (!vote.size()) throw size_unknown(number, entry);
     const Intrinsics intrinsics = read_intrinsics(entry, *vote.size());
     return {id, entry.where(), intrinsics, range_, read_pose(entry), std::move(depth), color};
   }
 
  private:
-  static std::string stem(int id) { return fmt::format("{:06d}", id); }
-
-  std::shared_ptr<const DepthImage> load_depth(int id, const Entry& entry, SizeVote& vote) {
-    if (!has_depth_) return nullptr;
-    const fs::path file = scene_.folder / "depth" / (stem(id) + ".png");
-    if (!fs::exists(file)) {
-      throw bad_input(file.string(), fmt::format("missing: {} needs it, because the scene has a "
-                                                 "depth folder; add it or remove the entry",
-                                                 entry.where()));
+  std::shared_ptr<const DepthImage> load_depth(int number, const Entry& entry, SizeVote& vote) {
+    if (!depth_.exists()) return nullptr;
+    const std::optional<fs::path> file = depth_.find(number);
+    if (!file) {
+      throw bad_input((depth_.folder() / fmt::format("{:06d}.png", number)).string(),
+                      fmt::format("missing: {} needs it, because the scene has a depth folder; {}; "
+                                  "expected .png, .tif, .exr or .npy; add it or remove the entry",
+                                  entry.where(), depth_.contents()));
     }
     const double depth_scale_mm = entry.positive("depth_scale");
-    const RawDepthImage counts = read_png_counts(file);
-    scene_.files.push_back(file);
-    vote.add({counts.width, counts.height}, file.string());
-    warn_of_saturation(counts, file);
-    return std::make_shared<const DepthImage>(
-        DepthImage::from_counts(counts, depth_scale_mm, file.string()));
+    const auto [depth, saturated_share] = reconstruction::detail::read_depth(*file, depth_scale_mm);
+    scene_.files.push_back(*file);
+    vote.add({depth->width(), depth->height()}, file->string());
+    warn_of_saturation(saturated_share, *file);
+    return depth;
   }
 
   /// A few such pixels are usual; more of them are a surface that is too near or too bright, or a
   /// program that writes "unknown" so.
-  void warn_of_saturation(const RawDepthImage& counts, const fs::path& file) {
-    const auto saturated = std::ranges::count(counts.samples, DepthImage::kSaturatedCount);
-    const double share = double(saturated) / double(counts.samples.size());
+  void warn_of_saturation(double share, const fs::path& file) {
     if (share < kNotableSaturation) return;
     scene_.warnings.push_back(fmt::format(
         "{}: {:.1f} % of the pixels have the value {}, which is taken as \"no reading\": "
@@ -180,20 +189,40 @@ class Loader {
         file.string(), 100 * share, DepthImage::kSaturatedCount));
   }
 
-  fs::path find_color(int id, SizeVote& vote) {
-    for (const char* ending : {".png", ".jpg"}) {
-      const fs::path file = scene_.folder / "rgb" / (stem(id) + ending);
-      if (!fs::exists(file)) continue;
-      vote.add(reconstruction::detail::check_color_header(read_file(file), file), file.string());
-      scene_.files.push_back(file);
-      return file;
+  fs::path find_color(int number, SizeVote& vote) {
+    for (const NumberedImages& images : colors_) {
+      const std::optional<fs::path> file = images.find(number);
+      if (!file) continue;
+      const auto header = reconstruction::detail::check_color_header(read_file(*file), *file);
+      vote.add(header.size, file->string());
+      const std::string warning = reconstruction::detail::orientation_warning(header, *file);
+      if (!warning.empty()) scene_.warnings.push_back(warning);
+      scene_.files.push_back(*file);
+      return *file;
     }
     return {};
   }
 
+  /// Says what was found in place of the images.
+  Error size_unknown(int number, const Entry& entry) const {
+    std::string found;
+    for (const NumberedImages& images : colors_) {
+      found += fmt::format("; {}: {}", images.folder().filename().string(), images.contents());
+    }
+    return bad_input(
+        entry.where(),
+        fmt::format("the image's size is not known: there is neither {0:06d}.png (or .tif, .exr, "
+                    ".npy) in {1}/ nor {0:06d}.png (or .jpg, .jpeg, .tif, .bmp, .webp) in {2}/ or "
+                    "{3}/, nor are there keys width and height{4}",
+                    number, depth_.folder().filename().string(),
+                    colors_[0].folder().filename().string(),
+                    colors_[1].folder().filename().string(), found));
+  }
+
   BopScene& scene_;
   DepthRange range_;
-  bool has_depth_;
+  NumberedImages depth_;
+  std::vector<NumberedImages> colors_;
 };
 
 }  // namespace
@@ -214,18 +243,34 @@ BopScene load_bop_scene(const fs::path& folder, const DepthRange& range,
                     "no such folder; expected a BOP scene folder, with "
                     "scene_camera.json, rgb/ and depth/ in it");
   }
-  const fs::path file = folder / "scene_camera.json";
-  if (!fs::exists(file)) {
-    throw bad_input(file.string(), "missing; a BOP scene folder has one, e.g. DATASET/test/000001");
+  const std::vector<BopSensor> sensors = reconstruction::detail::sensors_of(folder);
+  if (sensors.empty()) {
+    throw bad_input(
+        (folder / "scene_camera.json").string(),
+        "missing; a BOP scene folder has one, e.g. DATASET/test/000001, or one for each "
+        "sensor, such as scene_camera_cam1.json");
   }
-  BopScene scene{folder, {}, {file}};
-  const json root = reconstruction::detail::parse_json_file(file);
-  Entries entries = entries_by_id(file, root);
-  select(entries, only_ids, file);
+  BopScene scene{folder, {}, {}};
+  std::deque<json> roots;  // the entries refer to them
+  Entries entries;
+  for (const BopSensor& sensor : sensors) {
+    scene.files.push_back(sensor.camera_file);
+    roots.push_back(reconstruction::detail::parse_json_file(sensor.camera_file));
+    add_entries(sensor, roots.back(), entries);
+  }
+  select(entries, only_ids, (sensors.size() == 1 ? sensors[0].camera_file : folder).string());
 
-  Loader loader(scene, range);
-  for (const auto& [id, entry] : entries) scene.images.push_back(loader.load(id, entry));
+  std::map<int, Loader> loaders;  // by the sensor's first id
+  for (const auto& [id, entry] : entries) {
+    Loader& loader =
+        loaders.try_emplace(entry.sensor.first_id, scene, entry.sensor, range).first->second;
+    scene.images.push_back(loader.load(id, entry.number, entry.entry));
+  }
   return scene;
+}
+
+bool is_bop_scene(const fs::path& folder) {
+  return fs::is_directory(folder) && !reconstruction::detail::sensors_of(folder).empty();
 }
 
 }  // namespace vantage

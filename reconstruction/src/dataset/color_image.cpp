@@ -11,33 +11,47 @@
 namespace vantage {
 namespace {
 
+/// As it is stored: not turned, and with all bits of a channel.
 cv::Mat decode(const std::vector<std::uint8_t>& bytes) {
   try {
-    return cv::imdecode(bytes, cv::IMREAD_COLOR | cv::IMREAD_IGNORE_ORIENTATION);
+    return cv::imdecode(bytes,
+                        cv::IMREAD_COLOR | cv::IMREAD_ANYDEPTH | cv::IMREAD_IGNORE_ORIENTATION);
   } catch (const cv::Exception&) {
     return {};
   }
+}
+
+/// Full scale stays full scale.
+std::uint8_t to_8_bits(std::uint16_t value) {
+  return std::uint8_t((value + 128) / 257);
+}
+
+/// OpenCV's blue, green, red to red, green, blue.
+template <class Sample, class Convert>
+ColorImage rgb_of(const cv::Mat& bgr, const Convert& convert) {
+  ColorImage image(bgr.cols, bgr.rows);
+  for (int v = 0; v < bgr.rows; ++v) {
+    const Sample* from = bgr.ptr<Sample>(v);
+    std::uint8_t* to = image.pixel(0, v);
+    for (int u = 0; u < bgr.cols; ++u, from += 3, to += 3) {
+      to[0] = convert(from[2]), to[1] = convert(from[1]), to[2] = convert(from[0]);
+    }
+  }
+  return image;
 }
 
 }  // namespace
 
 ColorImage read_color(const std::filesystem::path& path) {
   const std::vector<std::uint8_t> bytes = read_file(path);
-  const reconstruction::detail::ImageSize size =
-      reconstruction::detail::check_color_header(bytes, path);
+  const auto size = reconstruction::detail::check_color_header(bytes, path).size;
   const cv::Mat bgr = decode(bytes);
-  if (bgr.type() != CV_8UC3 || bgr.cols != size.width || bgr.rows != size.height) {
-    throw bad_input(path.string(), "corrupt: the image cannot be decoded; copy or record it again");
+  const bool fits = bgr.cols == size.width && bgr.rows == size.height;
+  if (fits && bgr.type() == CV_8UC3) {
+    return rgb_of<std::uint8_t>(bgr, [](std::uint8_t value) { return value; });
   }
-  ColorImage image(size.width, size.height);
-  for (int v = 0; v < size.height; ++v) {
-    const std::uint8_t* from = bgr.ptr(v);
-    std::uint8_t* to = image.pixel(0, v);
-    for (int u = 0; u < size.width; ++u, from += 3, to += 3) {
-      to[0] = from[2], to[1] = from[1], to[2] = from[0];
-    }
-  }
-  return image;
+  if (fits && bgr.type() == CV_16UC3) return rgb_of<std::uint16_t>(bgr, to_8_bits);
+  throw bad_input(path.string(), "corrupt: the image cannot be decoded; copy or record it again");
 }
 
 }  // namespace vantage

@@ -6,6 +6,7 @@
 #include <array>
 #include <string>
 
+#include "images/raster_headers.hpp"
 #include "vantage/raycore/error.hpp"
 
 namespace vantage::reconstruction::detail {
@@ -16,11 +17,7 @@ using Bytes = std::span<const std::uint8_t>;
 constexpr std::uint32_t kMaxSide = 16384;
 constexpr std::array<std::uint8_t, 8> kPngSignature = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1A, '\n'};
 
-struct Header {
-  std::uint32_t width = 0;
-  std::uint32_t height = 0;
-  int bits = 0;
-};
+using Header = RasterHeader;
 
 [[noreturn]] void truncated(const std::filesystem::path& path, std::size_t size) {
   throw bad_input(path.string(),
@@ -41,7 +38,7 @@ bool starts_with(Bytes bytes, Bytes start) {
 
 /// Walks the chunks (length, type, data, checksum) up to IEND.
 Header png_header(Bytes bytes, const std::filesystem::path& path) {
-  constexpr std::uint32_t kIhdr = 0x49484452, kIend = 0x49454E44;
+  constexpr std::uint32_t kIhdr = 0x49484452, kIend = 0x49454E44, kExif = 0x65584966;
   constexpr std::size_t kChunkOverhead = 12;
   Header header;
   std::size_t at = kPngSignature.size();
@@ -53,6 +50,7 @@ Header png_header(Bytes bytes, const std::filesystem::path& path) {
       if (type != kIhdr || length != 13) throw bad_input(path.string(), "PNG without a header");
       header = {big_endian(bytes, at + 8, 4), big_endian(bytes, at + 12, 4), bytes[at + 16]};
     }
+    if (type == kExif) header.exif_orientation = exif_orientation(bytes.subspan(at + 8, length));
     if (type == kIend) return header;
     at += length + kChunkOverhead;
   }
@@ -71,7 +69,7 @@ bool stands_alone(std::uint8_t marker) {
 /// Walks the segments (0xFF, marker, length, data) and skips the compressed data behind each scan's
 /// header, up to the end marker.
 Header jpeg_header(Bytes bytes, const std::filesystem::path& path) {
-  constexpr std::uint8_t kEnd = 0xD9;
+  constexpr std::uint8_t kEnd = 0xD9, kExif = 0xE1;
   Header header;
   std::size_t at = 2;
   while (at + 1 < bytes.size()) {
@@ -88,7 +86,11 @@ Header jpeg_header(Bytes bytes, const std::filesystem::path& path) {
       const std::size_t length = big_endian(bytes, at + 2, 2);
       if (length < 2 || length > bytes.size() - at - 2) break;
       if (is_frame(marker) && length >= 8) {
-        header = {big_endian(bytes, at + 7, 2), big_endian(bytes, at + 5, 2), bytes[at + 4]};
+        header.width = big_endian(bytes, at + 7, 2), header.height = big_endian(bytes, at + 5, 2);
+        header.bits = bytes[at + 4];
+      }
+      if (marker == kExif && length > 8) {
+        header.exif_orientation = exif_orientation(bytes.subspan(at + 4, length - 2));
       }
       at += 2 + length;
     }
@@ -96,29 +98,42 @@ Header jpeg_header(Bytes bytes, const std::filesystem::path& path) {
   truncated(path, bytes.size());
 }
 
+Header header_of(Bytes bytes, const std::filesystem::path& path) {
+  constexpr std::array<std::uint8_t, 3> kJpegSignature = {0xFF, 0xD8, 0xFF};
+  if (starts_with(bytes, kPngSignature)) return png_header(bytes, path);
+  if (starts_with(bytes, kJpegSignature)) return jpeg_header(bytes, path);
+  for (const auto read : {tiff_header, bmp_header, webp_header}) {
+    if (const auto header = read(bytes)) return *header;
+  }
+  throw bad_input(path.string(),
+                  "none of PNG, JPEG, TIFF, BMP and WebP; save the colour image as "
+                  "one of them");
+}
+
 }  // namespace
 
-ImageSize check_color_header(Bytes bytes, const std::filesystem::path& path) {
-  constexpr std::array<std::uint8_t, 3> kJpegSignature = {0xFF, 0xD8, 0xFF};
-  Header header;
-  if (starts_with(bytes, kPngSignature)) {
-    header = png_header(bytes, path);
-  } else if (starts_with(bytes, kJpegSignature)) {
-    header = jpeg_header(bytes, path);
-  } else {
-    throw bad_input(path.string(), "neither PNG nor JPEG; save the colour image as one of them");
-  }
-  if (header.bits > 8) {
-    throw bad_input(path.string(), fmt::format("{} bits per channel; expected a colour image of 8 "
-                                               "bits (16 bits are for depth)",
-                                               header.bits));
+ColorHeader check_color_header(Bytes bytes, const std::filesystem::path& path) {
+  const Header header = header_of(bytes, path);
+  if (header.bits > 16 || header.is_float) {
+    throw bad_input(path.string(),
+                    fmt::format("{} bits per channel{}; expected a colour image of 8 or 16 bits",
+                                header.bits, header.is_float ? ", as floating point" : ""));
   }
   if (std::min(header.width, header.height) < 1 ||
       std::max(header.width, header.height) > kMaxSide) {
     throw bad_input(path.string(), fmt::format("{} x {} pixels; expected 1 to {} along each side",
                                                header.width, header.height, kMaxSide));
   }
-  return {int(header.width), int(header.height)};
+  return {{int(header.width), int(header.height)}, header.exif_orientation};
+}
+
+std::string orientation_warning(const ColorHeader& header, const std::filesystem::path& path) {
+  if (header.exif_orientation == 1) return {};
+  return fmt::format(
+      "{}: its EXIF data ask to turn the picture (orientation {}); it is taken as it "
+      "is stored: check that the intrinsics are for {} x {} pixels, as the camera "
+      "recorded them",
+      path.string(), header.exif_orientation, header.size.width, header.size.height);
 }
 
 }  // namespace vantage::reconstruction::detail

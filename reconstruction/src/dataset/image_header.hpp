@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <span>
+#include <string>
 
 namespace vantage::reconstruction::detail {
 
@@ -12,11 +13,20 @@ struct ImageSize {
   bool operator==(const ImageSize&) const = default;
 };
 
-/// The size of an 8-bit PNG or JPEG, without decoding it: decoders trust headers, and a file of 2
-/// MB may claim 2 GB. `path` is for the messages.
-/// @throws Error bad_input if the bytes are neither, end before the image does, have more than 8
-/// bits per channel, or claim more than 16384 pixels along a side.
-ImageSize check_color_header(std::span<const std::uint8_t> bytes,
-                             const std::filesystem::path& path);
+/// What is known of a colour image before it is decoded.
+struct ColorHeader {
+  ImageSize size;
+  int exif_orientation = 1;  ///< 1 to 8; 1: shown as it is stored
+};
+
+/// Reads the header of a PNG, JPEG, TIFF, BMP or WebP image, without decoding it: decoders trust
+/// headers, and a file of 2 MB may claim 2 GB. `path` is for the messages.
+/// @throws Error bad_input if the bytes are none of these, end before a PNG or JPEG does, have more
+/// than 16 bits per channel or floating point, or claim more than 16384 pixels along a side.
+ColorHeader check_color_header(std::span<const std::uint8_t> bytes,
+                               const std::filesystem::path& path);
+
+/// For people, where EXIF data ask to turn the image; else empty.
+std::string orientation_warning(const ColorHeader& header, const std::filesystem::path& path);
 
 }  // namespace vantage::reconstruction::detail

@@ -14,7 +14,9 @@ namespace {
 auto known_dictionary(const std::string& name, const std::string& where) {
   const auto found = reconstruction::detail::aruco_dictionary(name);
   if (found) return *found;
-  throw bad_input(where, fmt::format("there is no marker dictionary '{}'; expected one of {}", name,
+  const bool is_newer = name.ends_with("ARUCO_MIP_36h12");
+  throw bad_input(where, fmt::format("there is no marker dictionary '{}'{}; expected one of {}",
+                                     name, is_newer ? " before OpenCV 4.8" : "",
                                      fmt::join(marker_dictionaries(), ", ")));
 }
 
@@ -31,10 +33,15 @@ std::vector<std::string> marker_dictionaries() {
   return reconstruction::detail::aruco_dictionary_names();
 }
 
-std::string marker_family(std::string_view dictionary) {
+std::string marker_dictionary(std::string_view name) {
+  return reconstruction::detail::canonical_dictionary(name);
+}
+
+std::string marker_family(std::string_view name) {
+  const std::string dictionary = marker_dictionary(name);
   const bool sized =
       !dictionary.empty() && std::isdigit(static_cast<unsigned char>(dictionary.front())) != 0;
-  return std::string(sized ? dictionary.substr(0, dictionary.find('_')) : dictionary);
+  return sized ? dictionary.substr(0, dictionary.find('_')) : dictionary;
 }
 
 int marker_count(const std::string& dictionary, const std::string& where) {

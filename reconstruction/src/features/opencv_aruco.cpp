@@ -1,5 +1,8 @@
 #include "features/opencv_aruco.hpp"
 
+#include <algorithm>
+#include <cctype>
+
 namespace vantage::reconstruction::detail {
 namespace {
 
@@ -30,7 +33,16 @@ constexpr Named kDictionaries[] = {
     {"APRILTAG_25h9", cv::aruco::DICT_APRILTAG_25h9},
     {"APRILTAG_36h10", cv::aruco::DICT_APRILTAG_36h10},
     {"APRILTAG_36h11", cv::aruco::DICT_APRILTAG_36h11},
+#if CV_VERSION_MAJOR > 4 || (CV_VERSION_MAJOR == 4 && CV_VERSION_MINOR >= 8)
+    {"ARUCO_MIP_36h12", cv::aruco::DICT_ARUCO_MIP_36h12},
+#endif
 };
+
+std::string lower_case(std::string_view text) {
+  std::string lower(text);
+  std::ranges::transform(lower, lower.begin(), [](unsigned char c) { return std::tolower(c); });
+  return lower;
+}
 
 }  // namespace
 
@@ -40,9 +52,20 @@ std::vector<std::string> aruco_dictionary_names() {
   return names;
 }
 
-std::optional<cv::aruco::Dictionary> aruco_dictionary(std::string_view name) {
+std::string canonical_dictionary(std::string_view name) {
+  std::string wanted = lower_case(name);
+  if (wanted.starts_with("dict_")) wanted.erase(0, 5);
+  if (wanted.starts_with("tag")) wanted = "apriltag_" + wanted.substr(3);
   for (const Named& entry : kDictionaries) {
-    if (entry.name == name) return predefined_dictionary(entry.type);
+    if (lower_case(entry.name) == wanted) return std::string(entry.name);
+  }
+  return std::string(name);
+}
+
+std::optional<cv::aruco::Dictionary> aruco_dictionary(std::string_view name) {
+  const std::string wanted = canonical_dictionary(name);
+  for (const Named& entry : kDictionaries) {
+    if (entry.name == wanted) return predefined_dictionary(entry.type);
   }
   return std::nullopt;
 }

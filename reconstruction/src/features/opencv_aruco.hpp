@@ -18,8 +18,12 @@
 
 namespace vantage::reconstruction::detail {
 
-/// OpenCV's names without the prefix `DICT_`: those that both versions have.
+/// OpenCV's names without the prefix `DICT_`.
 std::vector<std::string> aruco_dictionary_names();
+
+/// "4X4_50" for "DICT_4X4_50", "APRILTAG_36h11" for "tag36h11", in upper or lower case. A name that
+/// is none stays as it is.
+std::string canonical_dictionary(std::string_view name);
 
 /// Nothing for another name.
 std::optional<cv::aruco::Dictionary> aruco_dictionary(std::string_view name);
@@ -48,25 +52,39 @@ inline cv::Mat draw_cells(const cv::aruco::Dictionary& dictionary, int id) {
   return cells;
 }
 
+/// What counts as black, and as a quadrangle.
+struct OutlineOptions {
+  double darker;  ///< codes of grey by which black is darker than its surroundings
+  double stray;   ///< how far an outline may stray from a quadrangle, as a part of its length
+};
+
+/// OpenCV's own.
+inline constexpr OutlineOptions kUsualOutlines = {7, 0.03};
+/// With the usual ones white paper in the shade before a bright table is black, too, and markers
+/// grow together with it. With these, markers in faint light are missed.
+inline constexpr OutlineOptions kStrictOutlines = {15, 0.02};
+
 /// The markers of this dictionary in an 8-bit grey image: ids, and four corners for each, unrefined
-/// (a pixel off, or so). Black is what is 15 codes darker than its surroundings: with OpenCV's 7,
-/// white paper in the shade before a bright table is black too, and markers grow together with it.
-/// Outlines stray from a quadrangle by 2 % of their length at most, not OpenCV's 3 %.
+/// (a pixel off, or so). Appended to what is there.
 inline void detect_in_grey(const cv::Mat& grey, const cv::aruco::Dictionary& dictionary,
-                           std::vector<int>& ids, std::vector<std::vector<cv::Point2f>>& corners) {
-  constexpr double kDarker = 15, kStray = 0.02;
+                           const OutlineOptions& options, std::vector<int>& ids,
+                           std::vector<std::vector<cv::Point2f>>& corners) {
+  std::vector<int> found_ids;
+  std::vector<std::vector<cv::Point2f>> found_corners;
 #if VANTAGE_ARUCO_IN_OBJDETECT
   cv::aruco::DetectorParameters parameters;
-  parameters.adaptiveThreshConstant = kDarker;
-  parameters.polygonalApproxAccuracyRate = kStray;
-  cv::aruco::ArucoDetector(dictionary, parameters).detectMarkers(grey, corners, ids);
+  parameters.adaptiveThreshConstant = options.darker;
+  parameters.polygonalApproxAccuracyRate = options.stray;
+  cv::aruco::ArucoDetector(dictionary, parameters).detectMarkers(grey, found_corners, found_ids);
 #else
   const auto parameters = cv::aruco::DetectorParameters::create();
-  parameters->adaptiveThreshConstant = kDarker;
-  parameters->polygonalApproxAccuracyRate = kStray;
-  cv::aruco::detectMarkers(grey, cv::makePtr<cv::aruco::Dictionary>(dictionary), corners, ids,
-                           parameters);
+  parameters->adaptiveThreshConstant = options.darker;
+  parameters->polygonalApproxAccuracyRate = options.stray;
+  cv::aruco::detectMarkers(grey, cv::makePtr<cv::aruco::Dictionary>(dictionary), found_corners,
+                           found_ids, parameters);
 #endif
+  ids.insert(ids.end(), found_ids.begin(), found_ids.end());
+  corners.insert(corners.end(), found_corners.begin(), found_corners.end());
 }
 
 }  // namespace vantage::reconstruction::detail

@@ -7,6 +7,7 @@
 #include <opencv2/imgproc.hpp>
 #include <optional>
 #include <set>
+#include <span>
 #include <tuple>
 
 #include "features/opencv_aruco.hpp"
@@ -17,7 +18,12 @@
 namespace vantage {
 namespace {
 
-constexpr int kSmallestImage = 16;  ///< pixels; nothing smaller shows a marker
+using reconstruction::detail::kStrictOutlines;
+using reconstruction::detail::kUsualOutlines;
+using reconstruction::detail::OutlineOptions;
+
+constexpr int kSmallestImage = 16;         ///< pixels; nothing smaller shows a marker
+constexpr double kInvertedSupport = 0.75;  ///< white markers on black are rare: look twice
 
 /// One dictionary to look through.
 struct Family {
@@ -72,6 +78,32 @@ std::optional<Found> refined(const cv::Mat1f& light, const Lens* lens, const Fam
     found.size_px += (pixel - found.centre).norm() / 4;
   }
   return fault_of(found.observation).empty() ? std::optional(std::move(found)) : std::nullopt;
+}
+
+/// Whether it is there already: outlines of other options find it again.
+bool is_known(std::span<const Found> all, const FeatureKey& key,
+              const std::vector<cv::Point2f>& corners) {
+  Eigen::Vector2d centre(0, 0);
+  for (const cv::Point2f& corner : corners) centre += Eigen::Vector2d(corner.x, corner.y) / 4;
+  return std::any_of(all.begin(), all.end(), [&](const Found& found) {
+    return found.observation.key == key && (found.centre - centre).norm() < 0.2 * found.size_px;
+  });
+}
+
+/// Appends the markers of one dictionary that are not there yet and have at least this support.
+void find_markers(const cv::Mat1b& grey, const cv::Mat1f& light, const Lens* lens,
+                  const Family& family, const OutlineOptions& outlines, double min_support,
+                  std::vector<Found>& all) {
+  std::vector<int> ids;
+  std::vector<std::vector<cv::Point2f>> corners;
+  reconstruction::detail::detect_in_grey(grey, family.dictionary, outlines, ids, corners);
+  const std::size_t known = all.size();
+  for (std::size_t i = 0; i < ids.size(); ++i) {
+    if (is_known(std::span(all).first(known), marker_key(family.name, ids[i]), corners[i]))
+      continue;
+    auto found = refined(light, lens, family, ids[i], corners[i]);
+    if (found && found->support >= min_support) all.push_back(std::move(*found));
+  }
 }
 
 /// One square of the image is one marker: the one whose pattern is better to be seen.
@@ -140,13 +172,14 @@ std::vector<Observation> ArucoDetector::detect(const ColorImage& image) const {
   const cv::Mat1f light = linear_light(grey);
   std::vector<Found> all;
   for (const Family& family : impl_->families) {
-    std::vector<int> ids;
-    std::vector<std::vector<cv::Point2f>> corners;
-    reconstruction::detail::detect_in_grey(grey, family.dictionary, ids, corners);
-    for (std::size_t i = 0; i < ids.size(); ++i) {
-      if (auto found = refined(light, lens, family, ids[i], corners[i]))
-        all.push_back(std::move(*found));
-    }
+    find_markers(grey, light, lens, family, kStrictOutlines, 0, all);
+    find_markers(grey, light, lens, family, kUsualOutlines, 0, all);
+  }
+  // White markers on black, as some are printed: the same in the negative.
+  const cv::Mat1b negative = 255 - grey;
+  const cv::Mat1f negative_light = 1 - light;
+  for (const Family& family : impl_->families) {
+    find_markers(negative, negative_light, lens, family, kUsualOutlines, kInvertedSupport, all);
   }
   const auto order = [](const Found& f) {
     return std::make_tuple(std::cref(f.observation.key), f.centre.x(), f.centre.y());

@@ -3,6 +3,8 @@
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 
+#include "vantage/raycore/error.hpp"
+
 namespace vantage::reconstruction::detail {
 namespace {
 
@@ -16,11 +18,16 @@ Eigen::Matrix2d slope_of(const Lens* lens, const Eigen::Vector2d& flat) {
   return Eigen::Vector2d(k.fx, k.fy).asDiagonal() * lens->slope(flat);
 }
 
-Eigen::Vector2d unseen(const Lens* lens, const Eigen::Vector2d& pixel) {
+/// Nothing for a pixel that the lens has no direction for.
+std::optional<Eigen::Vector2d> unseen(const Lens* lens, const Eigen::Vector2d& pixel) {
   if (!lens) return pixel;
   const Intrinsics& k = lens->intrinsics();
-  return lens->sight(pixel.x(), pixel.y(), {(pixel.x() - k.cx) / k.fx, (pixel.y() - k.cy) / k.fy})
-      .xy;
+  const Eigen::Vector2d guess((pixel.x() - k.cx) / k.fx, (pixel.y() - k.cy) / k.fy);
+  try {
+    return lens->sight(pixel.x(), pixel.y(), guess).xy;
+  } catch (const Error&) {
+    return std::nullopt;
+  }
 }
 
 }  // namespace
@@ -53,7 +60,9 @@ std::optional<PrintMap> print_map(const std::array<Eigen::Vector2d, 4>& pixels, 
   Eigen::Matrix<double, 8, 1> right;
   for (int i = 0; i < 4; ++i) {
     const Eigen::Vector2d& print = kPrintCorners[std::size_t(i)];
-    const Eigen::Vector2d flat = unseen(lens, pixels[std::size_t(i)]);
+    const std::optional<Eigen::Vector2d> seen_at = unseen(lens, pixels[std::size_t(i)]);
+    if (!seen_at) return std::nullopt;
+    const Eigen::Vector2d& flat = *seen_at;
     equations.block<1, 3>(2 * i, 0) = print.homogeneous().transpose();
     equations.block<1, 3>(2 * i + 1, 3) = print.homogeneous().transpose();
     equations.block<2, 2>(2 * i, 6) = -flat * print.transpose();

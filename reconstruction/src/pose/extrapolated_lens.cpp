@@ -1,5 +1,6 @@
 #include "pose/extrapolated_lens.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "vantage/raycore/error.hpp"
@@ -9,6 +10,7 @@ namespace {
 
 constexpr double kNearest = 1e-3;  // metres before the camera
 constexpr int kSteps = 4;          // from the principal point to a pixel
+constexpr double kNearAxis = 1e-9;
 
 }  // namespace
 
@@ -48,12 +50,43 @@ Eigen::Vector2d WideLens::distort(const Eigen::Vector2d& xy, Eigen::Matrix2d* sl
   return xy + lens_->distort(border) - border;
 }
 
+/// How far a fisheye image goes on for a point at the angle t off the axis: as at its border.
+Eigen::Vector2d WideLens::project_beyond(const Eigen::Vector3d& p_cam,
+                                         Eigen::Matrix<double, 2, 3>* by_point) const {
+  const double reach = lens_->reach(), z = p_cam.z();
+  const double off_axis = std::max(p_cam.head<2>().norm(), kNearAxis);
+  const Eigen::Vector2d outwards =
+      p_cam.head<2>().norm() < kNearAxis ? Eigen::Vector2d::UnitX() : p_cam.head<2>().normalized();
+  const double by_angle =
+      outwards.dot(lens_->slope(outwards * reach) * outwards) * (1 + reach * reach);
+  const double radius = lens_->distort(outwards * reach).norm() +
+                        (std::atan2(off_axis, z) - std::atan(reach)) * by_angle;
+  if (by_point) {
+    const double square = off_axis * off_axis + z * z;
+    const Eigen::Matrix2d along = outwards * outwards.transpose();
+    by_point->leftCols<2>() =
+        radius / off_axis * (Eigen::Matrix2d::Identity() - along) + by_angle * z / square * along;
+    by_point->col(2) = -by_angle * off_axis / square * outwards;
+  }
+  return radius * outwards;
+}
+
+Eigen::Vector2d WideLens::to_pixel(const Eigen::Vector2d& xy) const {
+  const Intrinsics& k = lens_->intrinsics();
+  return {k.fx * xy.x() + k.cx, k.fy * xy.y() + k.cy};
+}
+
 Eigen::Vector2d WideLens::project(const Eigen::Vector3d& p_cam,
                                   Eigen::Matrix<double, 2, 3>* by_point) const {
-  const bool before = is_before(p_cam);
-  const double over_z = before ? 1 / p_cam.z() : (2 * kNearest - p_cam.z()) / (kNearest * kNearest);
   const Eigen::Vector2d focal(lens_->intrinsics().fx, lens_->intrinsics().fy);
-  const Eigen::Vector2d centre(lens_->intrinsics().cx, lens_->intrinsics().cy);
+  const bool is_fisheye = lens_->distortion().model == LensModel::fisheye;
+  if (is_fisheye && !(p_cam.head<2>().norm() < lens_->reach() * p_cam.z())) {
+    const Eigen::Vector2d xy = project_beyond(p_cam, by_point);
+    if (by_point) *by_point = (focal.asDiagonal() * *by_point).eval();
+    return to_pixel(xy);
+  }
+  const bool before = is_fisheye || is_before(p_cam);
+  const double over_z = before ? 1 / p_cam.z() : (2 * kNearest - p_cam.z()) / (kNearest * kNearest);
   Eigen::Matrix2d slope;
   const Eigen::Vector2d xy = distort(p_cam.head<2>() * over_z, by_point ? &slope : nullptr);
   if (by_point) {
@@ -62,7 +95,7 @@ Eigen::Vector2d WideLens::project(const Eigen::Vector3d& p_cam,
     by_point->leftCols<2>() = slope * over_z;
     by_point->col(2) = slope * p_cam.head<2>() * by_z;
   }
-  return xy.cwiseProduct(focal) + centre;
+  return to_pixel(xy);
 }
 
 }  // namespace vantage::reconstruction::detail

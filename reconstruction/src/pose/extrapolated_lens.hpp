@@ -13,7 +13,8 @@ namespace vantage::reconstruction::detail {
 /// Beyond the radius of the farthest corner the distortion stays what it is there: the polynomial
 /// may fold over, and would show a point at a wide angle in the middle of the image. Closer to the
 /// camera's plane than a millimetre, and behind it, 1/z goes on along its tangent, so that the
-/// image runs away from any pixel the farther behind a point lies.
+/// image runs away from any pixel the farther behind a point lies. A fisheye lens goes on beyond
+/// that radius by the angle off the optical axis, as it does inside, up to straight behind.
 class WideLens {
  public:
   explicit WideLens(const Lens& lens) : lens_(&lens) {}
@@ -24,6 +25,9 @@ class WideLens {
 
  private:
   Eigen::Vector2d distort(const Eigen::Vector2d& xy, Eigen::Matrix2d* slope) const;
+  Eigen::Vector2d project_beyond(const Eigen::Vector3d& p_cam,
+                                 Eigen::Matrix<double, 2, 3>* by_point) const;
+  Eigen::Vector2d to_pixel(const Eigen::Vector2d& xy) const;
 
   const Lens* lens_;
 };

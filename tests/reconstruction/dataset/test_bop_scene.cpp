@@ -211,12 +211,48 @@ TEST_CASE("a matrix that is no rotation is refused") {
   expect_entry_refused(with_r("1, 0, 0, 0, 1, 0, 0, 0, -1"), "cam_R_w2c", {"reflection"});
 }
 
-TEST_CASE("depth and intrinsics of different size are refused") {
+TEST_CASE("the principal point of a cropped image may lie beside it") {
   SceneFolder folder;
-  folder.entry(R"("cam_K": [525, 0, 319.5, 0, 525, 239.5, 0, 0, 1], )" + kScale + ", " + kPose);
+  folder.entry(R"("cam_K": [525, 0, -19.5, 0, 525, 239.5, 0, 0, 1], )" + kScale + ", " + kPose);
   folder.depth();
-  expect_refused([&] { load_bop_scene(folder.path()); }, "\"7\": cam_K",
-                 {"(319.5, 239.5)", "8 x 6", "depth and intrinsics of different size"});
+  const BopScene scene = load_bop_scene(folder.path());
+  CHECK(scene.images.at(0).intrinsics == Intrinsics{8, 6, 525, 525, -19.5, 239.5});
+}
+
+TEST_CASE("a scene of several sensors has a camera for each image of each") {
+  SceneFolder folder;
+  const auto sensor = [&](const std::string& name, int count) {
+    folder.write("scene_camera_" + name + ".json", R"({"0": {)" + kGoodEntry + "}}");
+    std::filesystem::create_directories(folder.path() / ("depth_" + name));
+    write_png(folder.path() / ("depth_" + name) / "000000.png",
+              RawDepthImage(8, 6, std::uint16_t(count)));
+  };
+  sensor("cam1", 2000), sensor("photoneo", 1000);
+  std::filesystem::create_directories(folder.path() / "gray_photoneo");
+  write_png(folder.path() / "gray_photoneo/000000.png", ColorImage(8, 6, 90));
+  CHECK(is_bop_scene(folder.path()));
+  const BopScene scene = load_bop_scene(folder.path());
+  REQUIRE(scene.images.size() == 2);
+  CHECK(scene.images[0].id == 0);
+  CHECK(scene.images[1].id == 1'000'000);
+  CHECK(scene.images[0].depth->at(1, 1) == 1.0f);
+  CHECK(scene.images[1].depth->at(1, 1) == 0.5f);
+  CHECK(scene.images[0].color.empty());
+  CHECK(scene.images[1].color == folder.path() / "gray_photoneo/000000.png");
+  CHECK(load_bop_scene(folder.path(), {}, std::array{1'000'000}).images.size() == 1);
+}
+
+TEST_CASE("images are found whatever their ending, and what is there instead is named") {
+  SceneFolder folder;
+  folder.good_entry().depth("7.PNG");
+  std::filesystem::create_directories(folder.path() / "gray");
+  write_png(folder.path() / "gray/000007.PNG", ColorImage(8, 6, 90));
+  const BopScene scene = load_bop_scene(folder.path());
+  CHECK(scene.images.at(0).color == folder.path() / "gray/000007.PNG");
+  CHECK(scene.images.at(0).depth->at(1, 1) == 1.0f);
+  std::filesystem::rename(folder.path() / "depth/7.PNG", folder.path() / "depth/000007.raw");
+  expect_refused([&] { load_bop_scene(folder.path()); }, "depth/000007.png",
+                 {"missing", "the folder has 000007.raw", ".png, .tif, .exr or .npy"});
 }
 
 TEST_CASE("depth, colour and entry have to be of one size") {
@@ -235,7 +271,7 @@ TEST_CASE("depth, colour and entry have to be of one size") {
   SceneFolder nothing;
   nothing.good_entry();
   expect_refused([&] { load_bop_scene(nothing.path()); }, "scene_camera.json: \"7\"",
-                 {"size is not known", "000007.png", "width and height"});
+                 {"size is not known", "000007.png", "width and height", "rgb: no such folder"});
 }
 
 TEST_CASE("a depth image that is damaged or of 8 bits is refused") {

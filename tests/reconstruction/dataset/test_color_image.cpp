@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include <opencv2/imgcodecs.hpp>
 #include <string>
 
 #include "support/expect_error.hpp"
@@ -64,8 +65,8 @@ TEST_CASE("a JPEG is read as it is stored: its EXIF orientation does not turn it
 TEST_CASE("a colour image that is missing or no image is refused") {
   TemporaryFolder folder;
   expect_refused([&] { read_color(folder / "nowhere.png"); }, "nowhere.png", {"o such file"});
-  expect_bytes_refused("", {"neither PNG nor JPEG"});
-  expect_bytes_refused("GIF89a", {"neither PNG nor JPEG"});
+  expect_bytes_refused("", {"none of PNG, JPEG, TIFF, BMP and WebP"});
+  expect_bytes_refused("GIF89a", {"none of PNG, JPEG, TIFF, BMP and WebP"});
 }
 
 TEST_CASE("a colour image that ends too early is refused, wherever it is cut") {
@@ -90,10 +91,45 @@ TEST_CASE("a colour image that claims too much is refused before it is decoded")
   expect_bytes_refused(photograph, {"65535 x 65535", "16384"});
 }
 
-TEST_CASE("a colour image of 16 bits is refused") {
+TEST_CASE("16 bits become 8: full scale stays full scale") {
   TemporaryFolder folder;
-  write_png(folder / "depth.png", RawDepthImage(6, 4, 1000));
-  expect_refused([&] { read_color(folder / "depth.png"); }, "depth.png", {"16 bits", "8 bits"});
+  write_png(folder / "grey.png", RawDepthImage(6, 4, 65535));
+  CHECK(read_color(folder / "grey.png") == ColorImage(6, 4, 255));
+  write_png(folder / "grey.png", RawDepthImage(6, 4, 257 * 77));
+  CHECK(read_color(folder / "grey.png") == ColorImage(6, 4, 77));
+}
+
+TEST_CASE("TIFF, BMP and WebP are read as PNG is") {
+  TemporaryFolder folder;
+  const cv::Mat bgr(3, 5, CV_8UC3, cv::Scalar(10, 120, 250));
+  const cv::Mat deep(3, 5, CV_16UC3, cv::Scalar(257 * 10, 257 * 120, 257 * 250));
+  ColorImage expected(5, 3);
+  for (std::size_t i = 0; i < expected.samples.size(); i += 3) {
+    expected.samples[i] = 250, expected.samples[i + 1] = 120, expected.samples[i + 2] = 10;
+  }
+  const auto read = [&](const char* ending, const cv::Mat& image, std::vector<int> how = {}) {
+    std::vector<unsigned char> bytes;
+    REQUIRE(cv::imencode(ending, image, bytes, how));
+    const std::string text(bytes.begin(), bytes.end());
+    // What is cut off is corrupt, wherever it ends, and never a crash.
+    for (std::size_t size = 0; size + 1 < text.size(); size += 7) {
+      try {
+        read_color(folder.write("cut", text.substr(0, size)));
+      } catch (const Error& error) {
+        CHECK(error.code() == ErrorCode::bad_input);
+      }
+    }
+    return read_color(folder.write("image", text));
+  };
+  CHECK(read(".tif", bgr) == expected);
+  CHECK(read(".tif", deep) == expected);
+  CHECK(read(".png", deep) == expected);
+  CHECK(read(".bmp", bgr) == expected);
+  CHECK(read(".webp", bgr, {cv::IMWRITE_WEBP_QUALITY, 101}) == expected);  // lossless
+  std::vector<unsigned char> floats;
+  REQUIRE(cv::imencode(".tif", cv::Mat(3, 5, CV_32FC3, cv::Scalar(1, 2, 3)), floats));
+  expect_bytes_refused({reinterpret_cast<const char*>(floats.data()), floats.size()},
+                       {"32 bits", "floating point"});
 }
 
 TEST_CASE("a colour image whose data are damaged is refused") {

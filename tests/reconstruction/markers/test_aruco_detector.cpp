@@ -118,6 +118,52 @@ TEST_CASE("another gamma than sRGB's and ink that has run do not move the corner
   CHECK(look(inky, {}).rms() < 0.2);
 }
 
+TEST_CASE("through a fisheye lens, corners are right if the detector knows it") {
+  Camera camera;
+  camera.distortion = Distortion::fisheye(0.1, -0.05, 0.02, -0.004);
+  const PrintedBoard board = board_of("4X4_50", 0.05);
+  const CornerErrors unknowing = look(board, camera);
+  camera.knows_lens = true;
+  const CornerErrors knowing = look(board, camera);
+  CHECK(knowing.found == knowing.markers);
+  CHECK(knowing.rms() < 0.06);
+  CHECK(knowing.worst < 0.25);
+  CHECK(unknowing.rms() > 1.1 * knowing.rms());
+}
+
+TEST_CASE("white markers on black are found as black ones on white are") {
+  const PrintedBoard board = board_of("4X4_50", 0.04);
+  const Lens lens(kBoardIntrinsics, {});
+  const Pose T_world_cam = Pose::looking_at({0.02, -0.1, 0.3}, {0, 0, 0});
+  ColorImage image = BoardCamera(board, lens, T_world_cam).photograph(0);
+  CornerErrors usual, inverted;
+  const ArucoDetector detector({{"4X4_50"}, lens});
+  usual.compare(board, lens, T_world_cam, detector.detect(image));
+  // The negative of the light, not of its codes: edges stay where they are.
+  for (std::uint8_t& sample : image.samples) {
+    const double c = sample / 255.0;
+    const double light = 1 - (c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4));
+    const double code =
+        light <= 0.0031308 ? 12.92 * light : 1.055 * std::pow(light, 1 / 2.4) - 0.055;
+    sample = std::uint8_t(std::lround(255 * code));
+  }
+  inverted.compare(board, lens, T_world_cam, detector.detect(image));
+  CHECK(usual.found == usual.markers);
+  CHECK(inverted.found == inverted.markers);
+  CHECK(inverted.rms() < 0.1);
+}
+
+TEST_CASE("markers in faint light are found, too") {
+  const PrintedBoard board = board_of("4X4_50", 0.04);
+  const Lens lens(kBoardIntrinsics, {});
+  const Pose T_world_cam = Pose::looking_at({0.02, -0.1, 0.3}, {0, 0, 0});
+  ColorImage image = BoardCamera(board, lens, T_world_cam).photograph(0);
+  // White is 60 and black is 48 codes: less than the 15 that the strict outlines ask for.
+  for (std::uint8_t& sample : image.samples) sample = std::uint8_t(48 + sample * 12 / 255);
+  std::vector<Observation> seen = ArucoDetector({{"4X4_50"}, lens}).detect(image);
+  CHECK(seen.size() == board.markers.size());
+}
+
 TEST_CASE("through a strong lens, corners are right if the detector knows it") {
   Camera camera;
   camera.distortion.k1 = -0.25;

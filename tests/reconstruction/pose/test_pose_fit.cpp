@@ -4,6 +4,7 @@
 #include <limits>
 #include <numbers>
 
+#include "pose/extrapolated_lens.hpp"
 #include "reconstruction/seen_markers.hpp"
 #include "reference/plain_least_squares.hpp"
 #include "support/scene_count.hpp"
@@ -184,6 +185,24 @@ TEST_CASE("a lens that folds over far out shows no point there in its image") {
   REQUIRE(lens.project(far_out).x() < 640);
   const PointTerm term{&lens, {}, {far_out}, {lens.project(far_out)}, 0.1};
   CHECK(reconstruction::detail::residuals_px(term, {})[0] > 300);
+}
+
+TEST_CASE("a fisheye lens has a continuous image with true derivatives, in front and behind") {
+  const Lens lens({640, 480, 200, 201, 322.3, 238.1}, Distortion::fisheye(0.02, -0.01, 0.002, 0));
+  const reconstruction::detail::WideLens wide(lens);
+  Random random(8);
+  for (int i = 0; i < 500; ++i) {
+    const Eigen::Vector3d p = random.uniform(0.1, 2) * random.direction();
+    if (p.z() / p.norm() < -0.99) continue;  // straight behind, everything is beside everything
+    Eigen::Matrix<double, 2, 3> by_point;
+    const Eigen::Vector2d at = wide.project(p, &by_point);
+    if (p.head<2>().norm() < lens.reach() * p.z()) CHECK((at - lens.project(p)).norm() < 1e-9);
+    for (int axis = 0; axis < 3; ++axis) {
+      const Eigen::Vector3d step = 1e-6 * Eigen::Vector3d::Unit(axis);
+      const Eigen::Vector2d change = (wide.project(p + step) - wide.project(p - step)) / 2e-6;
+      CHECK((change - by_point.col(axis)).norm() < 1e-3 * (1 + change.norm()));
+    }
+  }
 }
 
 TEST_CASE("no pose for what is not finite, for sigmas that are none, and for nothing at all") {

@@ -35,12 +35,19 @@ struct BopScene {
   std::vector<std::string> warnings = {};    ///< for people; each names the file that it is about
 };
 
-/// Reads `scene_camera.json` and depth/%06d.png; of rgb/%06d.{png,jpg} only the size.
+/// Reads `scene_camera.json` and the images of the folder depth; of those in rgb, or else gray,
+/// only the size. A file's name is the image's number; depth is PNG, TIFF, EXR or NumPy, colour
+/// PNG, JPEG, TIFF, BMP or WebP.
 ///
 /// `cam_K` is row-major in pixels; the pose is the inverse of (`cam_R_w2c`, `cam_t_w2c` in mm), or
 /// both are missing; a raw depth times `depth_scale` is in mm. The image's size is that of its
 /// depth, else of its colour, else the entry's `width` and `height`; whatever of these is there has
 /// to agree.
+///
+/// A scene of several sensors has a file and folders for each, such as `scene_camera_cam1.json`,
+/// depth_cam1 and rgb_cam1; each image of each sensor is a camera. Ids of the first sensor, in the
+/// order of their names, are those of the images; those of the next one are 1,000,000 higher, and
+/// so on.
 /// @param range of every camera: BOP does not store it.
 /// @param only_ids loads no other image; empty means all.
 /// @throws Error bad_input with the file, the image's id and the key: for files that are missing or
@@ -51,8 +58,11 @@ VANTAGE_API BopScene load_bop_scene(const std::filesystem::path& folder,
                                     const DepthRange& range = {},
                                     std::span<const int> only_ids = {});
 
-/// Photographs by one camera from several places: the PNG and JPEG files of a folder in the order
-/// of their names, with ids from 0; no poses, no depth.
+/// Whether the folder has a `scene_camera.json`, or one of a sensor.
+VANTAGE_API bool is_bop_scene(const std::filesystem::path& folder);
+
+/// Photographs by one camera from several places: the PNG, JPEG, TIFF, BMP and WebP files of a
+/// folder in the order of their names, with ids from 0; no poses, no depth.
 /// @param intrinsics of all of them.
 /// @throws Error bad_input for a folder without pictures, damaged ones, and those of another size.
 VANTAGE_API BopScene load_photographs(const std::filesystem::path& folder,

@@ -7,11 +7,12 @@
 
 namespace vantage {
 
-/// Reads an 8-bit PNG or JPEG as RGB, its pixels as they are stored: a camera's intrinsics belong
-/// to those, not to an image turned by its EXIF orientation. Grey becomes RGB; transparency is
-/// dropped. The header is checked before anything is decoded.
-/// @throws Error bad_input if the file is missing, neither PNG nor JPEG, truncated, corrupt, of
-/// more than 8 bits per channel, or above 16384 pixels along a side.
+/// Reads a PNG, JPEG, TIFF, BMP or WebP image as RGB, its pixels as they are stored: a camera's
+/// intrinsics belong to those, not to an image turned by its EXIF orientation. Grey becomes RGB; 16
+/// bits become 8, full scale for full scale; transparency is dropped. The header is checked before
+/// anything is decoded.
+/// @throws Error bad_input if the file is missing, none of these, truncated, corrupt, of more than
+/// 16 bits per channel, or above 16384 pixels along a side.
 VANTAGE_API ColorImage read_color(const std::filesystem::path& path);
 
 }  // namespace vantage

@@ -89,18 +89,18 @@ TEST_CASE("what is missing, of the wrong size or no number is refused with its p
   expect_calibration_refused("image_width: 0\nimage_height: 3\n" + kCameraLines + kLensLines,
                              ": camera_matrix", {"width is 0"});
   expect_calibration_refused(kSizeLines + kLensLines + "camera_matrix: [ 1, 2, 3 ]\n",
-                             ": camera_matrix", {"no OpenCV matrix"});
+                             ": camera_matrix", {"1 × 3 numbers", "3 × 3"});
   const auto camera = [](const std::string& numbers) {
     return kSizeLines + kLensLines + matrix("camera_matrix", 3, 3, numbers);
   };
   expect_calibration_refused(camera("615., 0., 322.3, 0., 611., 238.1"), ": camera_matrix",
-                             {"no matrix"});
+                             {"no matrix", "6 numbers for 3 × 3"});
   expect_calibration_refused(camera("615., 0.5, 322.3, 0., 611., 238.1, 0., 0., 1."),
                              ": camera_matrix", {"skewed by 0.5", "expected 0"});
   expect_calibration_refused(camera("615., 0., 322.3, 0., 611., 238.1, 0., 0., 2."),
                              ": camera_matrix", {"expected [fx, 0, cx, 0, fy, cy, 0, 0, 1]"});
   expect_calibration_refused(camera("615., 0., .Nan, 0., 611., 238.1, 0., 0., 1."),
-                             ": camera_matrix", {"nan", "finite"});
+                             ": camera_matrix", {"NaN", "finite"});
   expect_calibration_refused(camera("-615., 0., 3., 0., 611., 238.1, 0., 0., 1."),
                              ": camera_matrix", {"-615"});
   expect_calibration_refused(
@@ -119,21 +119,22 @@ TEST_CASE("what is missing, of the wrong size or no number is refused with its p
   expect_calibration_refused(lens(4, "-2., 0., 0., 0."), ": distortion_coefficients",
                              {"folds over"});
   expect_calibration_refused(lens(4, ".Inf, 0., 0., 0."), ": distortion_coefficients",
-                             {"inf", "finite"});
+                             {".Inf", "finite"});
 }
 
 TEST_CASE("files that are no calibrations are refused, wherever they end") {
   const TemporaryFolder folder;
   const auto refused = [&](std::string_view bytes, std::string_view message) {
     const auto file = folder.write("camera.yml", bytes);
-    expect_bad_input(file.string(), message, [&] { read_calibration(file); });
+    expect_bad_input("camera.yml", message, [&] { read_calibration(file); });
   };
-  refused("", "begins with neither '%YAML' nor '<?xml'");
-  refused("\x89PNG\r\n", "begins with neither");
-  refused("{\"camera_matrix\": 3}", "begins with neither");
-  refused("%YAML:1.0\n---\na: [ 1, 2\nb: }\n", "OpenCV cannot read it");
-  refused("<?xml version=\"1.0\"?>\n<other>\n", "OpenCV cannot read it");
-  refused("%YAML:1.0\n" + std::string(2 << 20, '#'), "at most 1048576");
+  refused("", "empty");
+  refused("\x89PNG\r\n", "");
+  refused("{\"camera_matrix\": 3}", "no OpenCV matrix: found 3");
+  refused("%YAML:1.0\n---\na: [ 1, 2\nb: }\n", "no valid YAML");
+  refused("<?xml version=\"1.0\"?>\n<other>\n", "no valid XML");
+  refused("<?xml version=\"1.0\"?>\n<other></other>\n", "its root is <other>");
+  refused("%YAML:1.0\n---\na: 1\n", "3 × 3 numbers, as OpenCV writes them");
   expect_bad_input("none.yml", "", [&] { read_calibration(folder / "none.yml"); });
 
   const std::string whole = "%YAML:1.0\n---\n" + kSizeLines + kCameraLines + kLensLines;

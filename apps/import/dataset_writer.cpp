@@ -1,0 +1,181 @@
+#include "import/dataset_writer.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <set>
+#include <string_view>
+
+#include "cli/pose_json.hpp"
+#include "vantage/raycore/detail/file.hpp"
+#include "vantage/raycore/error.hpp"
+#include "vantage/reconstruction/bop_scene.hpp"
+#include "vantage/reconstruction/calibration.hpp"
+#include "version.hpp"
+
+namespace vantage {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+constexpr const char* kImportRecord = "import.json";
+
+/// Refuses to mix a dataset with what somebody else has put there.
+void claim(const fs::path& folder) {
+  if (fs::exists(folder) && !fs::is_directory(folder)) {
+    throw bad_input(folder.string(), "there is a file of this name; name a folder for the dataset");
+  }
+  if (fs::is_directory(folder) && !fs::is_empty(folder) &&
+      !fs::is_regular_file(folder / kImportRecord)) {
+    throw bad_input(folder.string(),
+                    "the folder is not empty, and what is in it was not imported; "
+                    "name another one, so that nothing is lost");
+  }
+  for (const char* name : {"rgb", "depth"}) {
+    fs::remove_all(folder / name);
+    fs::create_directories(folder / name);
+  }
+  for (const char* name : {"scene_camera.json", kImportRecord}) fs::remove(folder / name);
+}
+
+std::vector<int> chosen(const ImportedDataset& dataset, const ImportChoice& choice) {
+  const int count = int(dataset.images.size());
+  std::vector<int> ids;
+  for (const int id : choice.images) {
+    if (id >= 0 && id < count) continue;
+    throw bad_input("--images", fmt::format("image {} was asked for; there are {}, from 0 to {}",
+                                            id, count, count - 1));
+  }
+  for (int id = 0; id < count; ++id) {
+    const bool asked =
+        choice.images.empty() || std::ranges::find(choice.images, id) != choice.images.end();
+    if (asked && id % choice.every == 0) ids.push_back(id);
+  }
+  if (ids.empty()) {
+    throw bad_input("SOURCE",
+                    "no image is left of it; ask for others with --images and --every, or "
+                    "see the warnings for why they were left out");
+  }
+  return ids;
+}
+
+/// Copies a file as rgb/000012.jpg or the like.
+void copy_image(const fs::path& from, const ImportedImage& image, const fs::path& folder, int id) {
+  if (!fs::is_regular_file(from)) {
+    throw bad_input(from.string(), fmt::format("missing: image {} needs it", image.name));
+  }
+  const fs::path to = folder / fmt::format("{:06d}{}", id, from.extension().string());
+  const std::vector<std::uint8_t> bytes = read_file(from);
+  write_file(to, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+}
+
+Json entry_of(const ImportedImage& image, double depth_scale_mm) {
+  const Intrinsics& k = image.intrinsics;
+  Json entry{{"cam_K", {k.fx, 0.0, k.cx, 0.0, k.fy, k.cy, 0.0, 0.0, 1.0}},
+             {"depth_scale", depth_scale_mm}};
+  if (image.T_world_cam) {
+    const Pose T_cam_world = image.T_world_cam->inverse();
+    entry["cam_R_w2c"] = bop_rotation(T_cam_world);
+    entry["cam_t_w2c"] = bop_translation(T_cam_world);
+  }
+  return entry;
+}
+
+/// One file where all lenses are alike, else one for each image. @returns the option to give.
+std::string write_lenses(const ImportedDataset& dataset, const std::vector<int>& ids,
+                         const BopScene& scene, const fs::path& folder) {
+  const auto& first = dataset.images[std::size_t(ids.front())];
+  bool distorted = false, alike = true;
+  for (const int id : ids) {
+    const ImportedImage& image = dataset.images[std::size_t(id)];
+    distorted |= !image.distortion.none();
+    alike &= image.distortion == first.distortion && image.intrinsics == first.intrinsics;
+  }
+  if (!distorted) return {};
+  std::string option;
+  for (std::size_t i = 0; i < ids.size(); ++i) {
+    const fs::path file =
+        folder / (alike ? "calibration.yml" : fmt::format("calibration_{:06d}.yml", ids[i]));
+    const Lens lens(scene.images[i].intrinsics, dataset.images[std::size_t(ids[i])].distortion,
+                    dataset.images[std::size_t(ids[i])].name);
+    write_file(file, calibration_yaml(lens));
+    option += alike ? file.string()
+                    : fmt::format("{}{}={}", option.empty() ? "" : ",", ids[i], file.string());
+    if (alike) break;
+  }
+  return option;
+}
+
+/// Colour of another size than depth is of no use: they share one set of intrinsics.
+void leave_out_colour(const std::vector<int>& ids, const fs::path& folder,
+                      ImportedDataset& dataset) {
+  fs::remove_all(folder / "rgb");
+  for (const int id : ids) dataset.images[std::size_t(id)].color.clear();
+  dataset.warnings.push_back(
+      "the pictures are of another size than the depth images and were left out; the intrinsics "
+      "are "
+      "those of depth");
+}
+
+/// What the dataset's own reader makes of what was written.
+BopScene read_back(const std::vector<int>& ids, const fs::path& folder, ImportedDataset& dataset) {
+  try {
+    return load_bop_scene(folder);
+  } catch (const Error& error) {
+    const bool is_size =
+        std::string_view(error.what()).find("of one size") != std::string_view::npos;
+    if (!is_size || dataset.format != "ScanNet") throw;
+    leave_out_colour(ids, folder, dataset);
+    return load_bop_scene(folder);
+  }
+}
+
+}  // namespace
+
+Json write_imported(ImportedDataset& dataset, const ImportChoice& choice, const fs::path& folder,
+                    const StopToken& stop) {
+  const double depth_scale_mm = choice.depth_scale_mm.value_or(dataset.depth_scale_mm);
+  const std::vector<int> ids = chosen(dataset, choice);
+  const auto has_depth = [&](int id) { return !dataset.images[std::size_t(id)].depth.empty(); };
+  const bool all_depth = std::ranges::all_of(ids, has_depth);
+  if (!all_depth && std::ranges::any_of(ids, has_depth)) {
+    const int id = *std::ranges::find_if_not(ids, has_depth);
+    throw bad_input(dataset.images[std::size_t(id)].name,
+                    "has no depth image, and others have; choose with --images those that do");
+  }
+  claim(folder);
+  Json cameras = Json::object();
+  stop.expect(ids.size());
+  for (const int id : ids) {
+    if (stop.stop_requested()) throw Error(ErrorCode::cancelled, "import", "interrupted");
+    const ImportedImage& image = dataset.images[std::size_t(id)];
+    if (!image.color.empty()) copy_image(image.color, image, folder / "rgb", id);
+    if (!image.depth.empty()) copy_image(image.depth, image, folder / "depth", id);
+    cameras[std::to_string(id)] = entry_of(image, depth_scale_mm);
+    const Intrinsics& k = image.intrinsics;
+    if (image.color.empty() && image.depth.empty() && k.width > 0) {
+      cameras[std::to_string(id)]["width"] = k.width,
+      cameras[std::to_string(id)]["height"] = k.height;
+    }
+    stop.advance(1);
+  }
+  for (const char* name : {"rgb", "depth"}) {
+    if (fs::is_empty(folder / name)) fs::remove(folder / name);
+  }
+  write_file(folder / "scene_camera.json", cameras.dump(1) + "\n");
+  const BopScene scene = read_back(ids, folder, dataset);
+  dataset.warnings.insert(dataset.warnings.end(), scene.warnings.begin(), scene.warnings.end());
+  Json record{{"vantage", kVersion},
+              {"format", dataset.format},
+              {"images", ids},
+              {"depth", all_depth},
+              {"depth_scale_mm", depth_scale_mm},
+              {"calibration", write_lenses(dataset, ids, scene, folder)},
+              {"warnings", dataset.warnings}};
+  write_file(folder / kImportRecord, record.dump(1) + "\n");
+  return record;
+}
+
+}  // namespace vantage

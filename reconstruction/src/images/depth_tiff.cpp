@@ -1,0 +1,66 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <opencv2/imgcodecs.hpp>
+#include <vector>
+
+#include "images/depth_decoders.hpp"
+#include "images/raster_headers.hpp"
+#include "vantage/raycore/error.hpp"
+
+namespace vantage::reconstruction::detail {
+namespace {
+
+cv::Mat decode_tiff(std::span<const std::uint8_t> bytes) {
+  try {
+    // OpenCV takes no pointer to const, and does not write to it.
+    const cv::Mat file(1, int(bytes.size()), CV_8U, const_cast<std::uint8_t*>(bytes.data()));
+    return cv::imdecode(file, cv::IMREAD_UNCHANGED | cv::IMREAD_IGNORE_ORIENTATION);
+  } catch (const cv::Exception&) {
+    return {};
+  }
+}
+
+template <class Sample, class Result, class Convert>
+Image<Result, 1> image_of(const cv::Mat& pixels, const Convert& convert) {
+  Image<Result, 1> image(pixels.cols, pixels.rows);
+  for (int v = 0; v < pixels.rows; ++v) {
+    std::transform(pixels.ptr<Sample>(v), pixels.ptr<Sample>(v) + pixels.cols, image.pixel(0, v),
+                   convert);
+  }
+  return image;
+}
+
+}  // namespace
+
+RawDepth decode_depth_tiff(std::span<const std::uint8_t> bytes, const std::string& where) {
+  const auto header = tiff_header(bytes);
+  if (!header) throw bad_input(where, "is no TIFF image, or a damaged one");
+  check_depth_size(header->width, header->height, bytes.size(), where);
+  const bool is_counts = header->bits == 16 && !header->is_float;
+  if (!is_counts && header->bits != 32) {
+    throw bad_input(where,
+                    fmt::format("has {} bits per pixel{}; expected depth of 16 bits as whole "
+                                "numbers, or of 32 bits",
+                                header->bits, header->is_float ? ", floating point" : ""));
+  }
+  if (bytes.size() > (std::size_t(1) << 30)) throw bad_input(where, "has more than 1 GiB");
+  const cv::Mat pixels = decode_tiff(bytes);
+  const bool fits = pixels.channels() == 1 && pixels.cols == int(header->width) &&
+                    pixels.rows == int(header->height);
+  if (fits && is_counts && pixels.depth() == CV_16U) {
+    return image_of<std::uint16_t, std::uint16_t>(pixels, [](std::uint16_t x) { return x; });
+  }
+  if (fits && header->is_float && pixels.depth() == CV_32F) {
+    return image_of<float, float>(pixels, [](float x) { return x; });
+  }
+  // Whole numbers of 32 bits: older OpenCV calls them floating point, and leaves their bits alone.
+  if (fits && !is_counts && (pixels.depth() == CV_32F || pixels.depth() == CV_32S)) {
+    return image_of<std::uint32_t, float>(pixels, [](std::uint32_t x) { return float(x); });
+  }
+  throw bad_input(where,
+                  "is a damaged TIFF image, or one of several channels; expected depth of "
+                  "one; record or copy it again");
+}
+
+}  // namespace vantage::reconstruction::detail

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+
+namespace vantage::reconstruction::detail {
+
+/// What the header of an image says, before anything is decoded.
+struct RasterHeader {
+  std::uint32_t width = 0;
+  std::uint32_t height = 0;
+  int bits = 0;              ///< of a channel
+  bool is_float = false;     ///< or whole numbers
+  int exif_orientation = 1;  ///< 1 to 8: how EXIF data ask to turn the image; 1 is as it is stored
+};
+
+/// Tags of the first image of a TIFF file, or of EXIF data, which have the same form.
+/// @returns nothing for what is no such block, or a damaged one.
+std::optional<RasterHeader> tiff_header(std::span<const std::uint8_t> bytes);
+
+/// @returns nothing for what is no bitmap of Windows.
+std::optional<RasterHeader> bmp_header(std::span<const std::uint8_t> bytes);
+
+/// @returns nothing for what is no WebP image.
+std::optional<RasterHeader> webp_header(std::span<const std::uint8_t> bytes);
+
+/// The orientation that a block of EXIF data asks for; 1 where it asks for none.
+int exif_orientation(std::span<const std::uint8_t> exif);
+
+}  // namespace vantage::reconstruction::detail
