@@ -6,7 +6,6 @@
 #include <Eigen/LU>
 #include <array>
 #include <cmath>
-#include <ranges>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -97,8 +96,9 @@ class GltfReader {
 
   void read() {
     check_extensions(root_, mesh_);
-    for (const std::uint64_t root : roots() | std::views::reverse) {
-      left_.push_back({root, Eigen::Affine3d::Identity()});
+    const std::vector<std::uint64_t> first = roots();
+    for (auto root = first.rbegin(); root != first.rend(); ++root) {
+      left_.push_back({*root, Eigen::Affine3d::Identity()});
     }
     shown_.resize(root_.element_count("nodes"));
     // A list of what is left to do instead of recursion: the file decides how deep the nodes are.
