@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "options/unused_options.hpp"
 #include "reconstruct/world_file.hpp"
 #include "vantage/raycore/error.hpp"
 
@@ -84,6 +85,16 @@ void use_file(const BopScene& scene, const Workcell& workcell, const fs::path& f
   plan.files.push_back(file);
 }
 
+/// Of options that say how to find objects, where none are to be found.
+void refuse_unused_search(const ReconstructCommandOptions& how) {
+  const std::string needs = "--objects pnp, voting or svd";
+  const ReconstructCommandOptions usual;
+  refuse_unused(how.cameras == "board", false, "--cameras board", needs);
+  refuse_unused(!how.features.empty(), false, "--features", needs);
+  refuse_unused(how.inlier_px != usual.inlier_px, false, "--inlier-px", needs);
+  refuse_unused(how.no_ambiguous, false, "--no-ambiguous", needs);
+}
+
 }  // namespace
 
 PlanWorld load_plan_world(const fs::path& dataset, const std::vector<int>& images,
@@ -95,11 +106,13 @@ PlanWorld load_plan_world(const fs::path& dataset, const std::vector<int>& image
   if (plan.objects.empty()) plan.objects = usual_source(scene, workcell);
   plan.world.static_structures = known(workcell.static_structures);
   if (plan.objects == "given") {
+    refuse_unused_search(source.how);
     use_given(scene, workcell, plan);
   } else if (is_method(plan.objects)) {
     options.method = reconstruction_method_of(plan.objects);
     use_reconstruction(scene, workcell, options, stop, plan);
   } else {
+    refuse_unused_search(source.how);
     use_file(scene, workcell, plan.objects, plan);
   }
   return plan;

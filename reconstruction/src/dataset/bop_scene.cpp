@@ -14,6 +14,7 @@
 #include "dataset/image_header.hpp"
 #include "dataset/json_file.hpp"
 #include "vantage/raycore/detail/file.hpp"
+#include "vantage/raycore/detail/limits.hpp"
 #include "vantage/raycore/error.hpp"
 #include "vantage/raycore/image_io.hpp"
 
@@ -196,6 +197,19 @@ class Loader {
   bool has_depth_;
 };
 
+/// @throws Error bad_input where the scene's depth images come to more than a gibibyte.
+void check_pixels(const BopScene& scene) {
+  std::uint64_t pixels = 0;
+  for (const BopImage& image : scene.images) {
+    if (image.depth != nullptr) pixels += image.depth->metres().size();
+  }
+  if (pixels <= limits::kMaxScenePixels) return;
+  throw bad_input(scene.folder.string(),
+                  fmt::format("its first {} depth images have more than {} pixels together; choose "
+                              "some with --images",
+                              scene.images.size(), limits::kMaxScenePixels));
+}
+
 }  // namespace
 
 PinholeCamera BopImage::camera() const {
@@ -224,7 +238,10 @@ BopScene load_bop_scene(const fs::path& folder, const DepthRange& range,
   select(entries, only_ids, file);
 
   Loader loader(scene, range);
-  for (const auto& [id, entry] : entries) scene.images.push_back(loader.load(id, entry));
+  for (const auto& [id, entry] : entries) {
+    scene.images.push_back(loader.load(id, entry));
+    check_pixels(scene);
+  }
   return scene;
 }
 
