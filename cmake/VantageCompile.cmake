@@ -44,6 +44,8 @@ if(VANTAGE_SANITIZE)
   target_link_options(vantage_options INTERFACE -fsanitize=${VANTAGE_SANITIZE})
 endif()
 
+add_link_options(LINKER:-z,relro,-z,now,-z,noexecstack)
+
 # For what parses, prints and checks: it takes no time that better code would save.
 set(VANTAGE_UNHURRIED $<$<CONFIG:Release>:-O1>)
 

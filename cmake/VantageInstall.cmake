@@ -7,8 +7,9 @@ set(package_dir "${CMAKE_INSTALL_LIBDIR}/cmake/vantage")
 
 # Libraries find each other beside themselves, the command finds them from bin/.
 set_target_properties(${modules} PROPERTIES INSTALL_RPATH "$ORIGIN")
-file(RELATIVE_PATH lib_from_bin "/${CMAKE_INSTALL_BINDIR}" "/${CMAKE_INSTALL_LIBDIR}")
-set_target_properties(vantage PROPERTIES INSTALL_RPATH "$ORIGIN/${lib_from_bin}")
+file(RELATIVE_PATH lib_from_command
+     "/${CMAKE_INSTALL_LIBEXECDIR}/vantage" "/${CMAKE_INSTALL_LIBDIR}")
+set_target_properties(vantage_command PROPERTIES INSTALL_RPATH "$ORIGIN/${lib_from_command}")
 
 install(TARGETS ${modules} EXPORT vantageTargets
         LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}")

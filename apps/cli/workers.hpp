@@ -7,14 +7,17 @@
 #include <cstddef>
 #include <utility>
 
+#include "process/thread_probe.hpp"
+
 namespace vantage {
 
 /// The threads that a command works with: as many as its user said, or as the machine has.
 class Workers {
  public:
   /// @param threads 0: all that the machine has.
+  /// @throws Error out_of_resources if they cannot be started.
   explicit Workers(int threads)
-      : count_(threads > 0 ? threads : tbb::info::default_concurrency()),
+      : count_(startable(threads > 0 ? threads : tbb::info::default_concurrency())),
         allow_(tbb::global_control::max_allowed_parallelism, std::size_t(count_)),
         arena_(count_) {}
 
@@ -24,6 +27,9 @@ class Workers {
   }
 
  private:
+  /// The caller's own thread works, too.
+  static int startable(int count) { return check_threads_start(count - 1), count; }
+
   int count_;
   tbb::global_control allow_;  // more than the machine has, too
   tbb::task_arena arena_;

@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
-#include <iostream>
 #include <memory>
 
 #include "cli/command.hpp"
@@ -10,6 +9,7 @@
 #include "cli/shared_options.hpp"
 #include "cli/signal_handler.hpp"
 #include "import/dataset_writer.hpp"
+#include "process/result_output.hpp"
 #include "vantage/raycore/error.hpp"
 #include "vantage/reconstruction/bop_scene.hpp"
 #include "vantage/reconstruction/calibration.hpp"
@@ -72,8 +72,7 @@ ExitCode import_dataset(const ImportOptions& options) {
     record = write_imported(dataset, options.choice, options.folder, stop);
   }
   for (const std::string& warning : dataset.warnings) spdlog::warn("{}", warning);
-  std::cout << (options.json ? record.dump(1) + "\n" : summary_of_import(record, options.folder))
-            << std::flush;
+  print_text(options.json ? record.dump(1) + "\n" : summary_of_import(record, options.folder));
   return ExitCode::ok;
 }
 

@@ -85,6 +85,16 @@ Field clearance_field(ViewConstraints& constraints) {
           .range = not_negative()};
 }
 
+Field floor_field(ViewConstraints& constraints) {
+  return {
+      .key = "floor_z_m",
+      .value = &constraints.floor_z_m,
+      .help = "Height of the floor, which the camera has to stay above; none: there is no floor",
+      .option = "--floor-z",
+      .unit = "Z",
+      .none = "none"};
+}
+
 Field camera_body_field(ViewConstraints& constraints) {
   Choice body{{"d435", "none"}, {}, {}};
   body.get = [&constraints]() -> std::string {
@@ -107,7 +117,9 @@ Field camera_body_field(ViewConstraints& constraints) {
 }
 
 FieldGroup body_fields(ViewConstraints& constraints) {
-  return {"", kHeading, {camera_body_field(constraints), clearance_field(constraints)}};
+  return {"",
+          kHeading,
+          {camera_body_field(constraints), clearance_field(constraints), floor_field(constraints)}};
 }
 
 }  // namespace vantage

@@ -16,6 +16,7 @@ FieldGroup fields_of(ViewList& list);  ///< none
 FieldGroup fields_of(CandidateSet& set);
 
 Field clearance_field(ViewConstraints& constraints);
+Field floor_field(ViewConstraints& constraints);
 
 /// By name; a body that has none (a workcell's own box, say) has no value here.
 Field camera_body_field(ViewConstraints& constraints);

@@ -62,7 +62,7 @@ class FieldOption {
     if (!names().empty()) return fmt::format("{}", fmt::join(names(), "|"));
     const std::string number = !field_.unit.empty() ? field_.unit : is_integer() ? "N" : "X";
     if (is_vector()) return "X Y Z";
-    return is_list() ? number + ",…" : number;
+    return is_list() ? number + ",…" : field_.none.empty() ? number : number + "|" + field_.none;
   }
 
   std::string shown_default() const {
@@ -71,6 +71,9 @@ class FieldOption {
     if (const auto* v = std::get_if<bool*>(&field_.value)) return **v ? "on" : "off";
     if (const auto* v = std::get_if<int*>(&field_.value)) return fmt::format("{}", **v);
     if (const auto* v = std::get_if<double*>(&field_.value)) return fmt::format("{:g}", **v);
+    if (const auto* v = std::get_if<std::optional<double>*>(&field_.value)) {
+      return **v ? fmt::format("{:g}", ***v) : field_.none;
+    }
     return {};
   }
 
@@ -85,8 +88,10 @@ class FieldOption {
       if (std::ranges::find(all, text) != all.end()) return {};
       return fmt::format("found '{}'; expected one of {}", text, fmt::join(all, ", "));
     }
+    if (!field_.none.empty() && text == field_.none) return {};
     if (const auto number = parsed(text); number && field_.range.contains(*number)) return {};
-    return fmt::format("found '{}'; expected {}", text, field_.range.text(is_integer()));
+    return fmt::format("found '{}'; expected {}{}", text, field_.range.text(is_integer()),
+                       field_.none.empty() ? "" : ", or " + field_.none);
   }
 
   std::optional<double> parsed(const std::string& text) const {
@@ -105,7 +110,7 @@ class FieldOption {
 
   nlohmann::json json_of(const std::string& text) const {
     if (is_switch()) return text == "on";
-    if (as_choice() != nullptr) return text;
+    if (as_choice() != nullptr || (!field_.none.empty() && text == field_.none)) return text;
     const double number = parsed(text).value();
     return is_integer() ? nlohmann::json(int(number)) : nlohmann::json(number);
   }

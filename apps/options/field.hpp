@@ -78,6 +78,7 @@ struct Field {
   std::string option = {};    ///< on the command line, e.g. "--servo"; empty: not there
   std::string unit = {};      ///< e.g. "m", "px"; empty: none
   ValidRange range = {};      ///< of a number, or of each number of a list
+  std::string none = {};      ///< a word for no value, where that is a choice of its own
   std::string fallback = {};  ///< what an unset value or an empty list means, for the help
   bool expert = false;        ///< listed by --help-all only
 };

@@ -18,16 +18,17 @@ Json vector_json(const Eigen::Vector3d& v) {
   return {v.x(), v.y(), v.z()};
 }
 
-/// Null where nothing is set.
-Json value_json(const FieldTarget& target) {
+/// Null where nothing is set, unless there is a word for it.
+Json value_json(const Field& field) {
+  const auto unset = [&] { return field.none.empty() ? Json() : Json(field.none); };
   return std::visit(
       Overloaded{
           [](const Choice& choice) { return choice.get().empty() ? Json() : Json(choice.get()); },
           [](const Eigen::Vector3d* v) { return vector_json(*v); },
-          [](const std::optional<Eigen::Vector3d>* v) { return *v ? vector_json(**v) : Json(); },
-          []<class T>(const std::optional<T>* v) { return *v ? Json(**v) : Json(); },
+          [&](const std::optional<Eigen::Vector3d>* v) { return *v ? vector_json(**v) : unset(); },
+          [&]<class T>(const std::optional<T>* v) { return *v ? Json(**v) : unset(); },
           [](const auto* v) { return Json(*v); }},
-      target);
+      field.value);
 }
 
 double checked(const Value& value, double number, bool integer, const Field& field) {
@@ -56,7 +57,10 @@ void read_field(const Value& value, const Field& field) {
                         [&](Eigen::Vector3d* v) { *v = value.vector(); },
                         [&](std::optional<Eigen::Vector3d>* v) { *v = value.vector(); },
                         [&]<class T>(std::vector<T>* v) { *v = numbers_of<T>(value, field); },
-                        [&]<class T>(std::optional<T>* v) { *v = number_of<T>(value, field); },
+                        [&]<class T>(std::optional<T>* v) {
+                          if (value.is_string()) return v->reset();  // the word for none
+                          *v = number_of<T>(value, field);
+                        },
                         [&]<class T>(T* v) { *v = number_of<T>(value, field); }},
              field.value);
 }
@@ -70,6 +74,10 @@ Json number_schema(const char* type, const Field& field) {
     schema[field.range.without_min ? "exclusiveMinimum" : "minimum"] = bound(field.range.min);
   }
   if (std::isfinite(field.range.max)) schema["maximum"] = bound(field.range.max);
+  if (!field.none.empty()) {
+    schema["type"] = {type, "string"};
+    schema["pattern"] = "^" + field.none + "$";
+  }
   return schema;
 }
 
@@ -112,13 +120,13 @@ Json type_schema(const Field& field) {
 Json field_schema(const Field& field) {
   Json schema{{"description", field.help}};
   schema.update(type_schema(field));
-  const Json value = value_json(field.value);
+  const Json value = value_json(field);
   if (!value.is_null() && !(value.is_array() && value.empty())) schema["default"] = value;
   return schema;
 }
 
 void add_json(const FieldGroup& group, Json& to) {
-  for (const Field& field : group.fields) to[field.key] = value_json(field.value);
+  for (const Field& field : group.fields) to[field.key] = value_json(field);
   for (const FieldGroup& nested : group.nested) {
     add_json(nested, nested.key.empty() ? to : to[nested.key]);
   }

@@ -46,6 +46,9 @@ void add_output_options(CLI::App& verb, PlanCommandOptions& options) {
           "Write overview.png, and what each suggested camera would see: view.png, view_2.png …")
       ->needs(verb.get_option("--output"))
       ->group("Output");
+  for (const char* option : {"--picture-quality", "--picture-width"}) {
+    verb.get_option(option)->needs("--pictures");
+  }
 }
 
 ExitCode plan(const PlanCommandOptions& options) {
@@ -67,6 +70,7 @@ ExitCode plan(const PlanCommandOptions& options) {
 void add_plan_command(CLI::App& app, Action& action) {
   CLI::App* verb = app.add_subcommand("plan", "Find the next view for a recording");
   const auto options = std::make_shared<PlanCommandOptions>();
+  options->plan.refuse_unused = true;
   add_input_options(*verb, options->plan);
   add_volume_options(*verb, options->plan);
   add_object_options(*verb, options->plan.objects);

@@ -1,8 +1,12 @@
 #include "plan/plan_input.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <chrono>
 
 #include "options/field_json.hpp"
+#include "options/unused_options.hpp"
 #include "options/volume_fields.hpp"
 #include "vantage/raycore/error.hpp"
 #include "vantage/volume/plausibility.hpp"
@@ -24,6 +28,12 @@ PlanRequest plan_request(const Workcell& workcell, const Intrinsics& usual) {
 
 namespace {
 
+bool has_rings(const CandidateSet& set) {
+  if (const auto* spheres = std::get_if<HalfSpheres>(&set)) return spheres->fan.rings > 0;
+  const auto* grid = std::get_if<BoxGrid>(&set);
+  return grid == nullptr || grid->fan.rings > 0;  // other kinds have no such option at all
+}
+
 /// The workcell file with the command line's options over it.
 Workcell workcell_of(const PlanOptions& options) {
   std::optional<Box> area;
@@ -40,12 +50,39 @@ Workcell workcell_of(const PlanOptions& options) {
                              {voxel_size_field(workcell.voxel_size_m)},
                              {fields_of(workcell.volume), fields_of(workcell.plan)}});
   options.candidates.apply(workcell);
+  if (options.refuse_unused) {
+    refuse_unused_fields(options.given, workcell.plan, workcell.volume);
+    refuse_unused(options.candidates.given.contains("candidates") &&
+                      options.candidates.given["candidates"].contains("ring_step_rad"),
+                  has_rings(workcell.candidates), "--ring-step", "--rings N");
+  }
   if (!options.depth_range.empty()) {
     const DepthRange range{options.depth_range[0], options.depth_range[1]};
     range.check("--depth-range");
     workcell.sensor_range = workcell.movable_range = range;
   }
   return workcell;
+}
+
+/// Depths so far away, or noise so large, that what is measured says nothing of where surfaces are.
+void warn_of_thick_surfaces(const Workcell& workcell, const WorldModel& world,
+                            std::vector<std::string>& warnings) {
+  const Box& area = workcell.work_area;
+  const double side_m = area.size().maxCoeff();
+  double farthest_m = 0;
+  for (const DepthCamera& camera : world.cameras) {
+    if (camera.depth == nullptr) continue;
+    farthest_m = std::max(farthest_m, (camera.camera.centre() - area.centre()).norm() + side_m);
+  }
+  const double depth_m = std::min(farthest_m, workcell.sensor_range.far_m);
+  const double band_m = workcell.volume.band_sigmas * workcell.volume.noise.sigma_m(depth_m);
+  if (band_m < 1 || band_m < 0.5 * side_m) return;
+  warnings.push_back(fmt::format(
+      "depths of {:.0f} m are taken with their noise for surfaces {:.0f} m thick, in a work area "
+      "of "
+      "{:.0f} m: check the depth range and the units of depth and work area, or describe the "
+      "sensor with volume: {{noise: …}}",
+      depth_m, band_m, side_m));
 }
 
 }  // namespace
@@ -58,6 +95,14 @@ PlanInput load_plan_input(const PlanOptions& options, const StopToken& stop) {
   for (std::string& finding :
        implausibilities(plan.world, workcell.work_area, workcell.voxel_size_m)) {
     plan.warnings.push_back(std::move(finding));
+  }
+  warn_of_thick_surfaces(workcell, plan.world, plan.warnings);
+  const std::optional<double> floor_z_m = workcell.constraints.floor_z_m;
+  if (floor_z_m && workcell.work_area.max().z() <= *floor_z_m) {
+    plan.warnings.push_back(
+        fmt::format("the work area lies below the floor, z = {:g} m, where no camera may be: check "
+                    "the work area, or set floor_z_m (--floor-z)",
+                    *floor_z_m));
   }
   PlanInput input{
       std::move(plan.world), plan_request(workcell, plan.first_camera), {}, plan.warnings};

@@ -29,6 +29,7 @@ struct PlanOptions {
   CandidateOptions candidates = {};
   /// Of the voxel size, the volume and the views, by the keys of their fields (options/).
   nlohmann::json given = nlohmann::json::object();
+  bool refuse_unused = false;  ///< whether an option that does nothing is an error
 };
 
 /// All that planning needs.
@@ -43,7 +44,7 @@ struct PlanInput {
 /// Loads the dataset and the workcell, and finds the objects if they are not given. Runs in the
 /// caller's task arena.
 /// @throws Error bad_input as `load_plan_world` and `load_workcell` do, and for options that do not
-/// make sense.
+/// make sense; UsageError for those that do nothing, if that is asked for.
 PlanInput load_plan_input(const PlanOptions& options, const StopToken& stop = {});
 
 }  // namespace vantage

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <utility>
 
+#include "options/unused_options.hpp"
 #include "reconstruct/scene_warnings.hpp"
 #include "reconstruct/world_file.hpp"
 #include "vantage/raycore/error.hpp"
@@ -129,6 +130,16 @@ void use_file(const BopScene& scene, const Workcell& workcell, const fs::path& f
   plan.files.push_back(file);
 }
 
+/// Of options that say how to find objects, where none are to be found.
+void refuse_unused_search(const ReconstructCommandOptions& how) {
+  const std::string needs = "--objects pnp, voting or svd";
+  const ReconstructCommandOptions usual;
+  refuse_unused(how.cameras == "board", false, "--cameras board", needs);
+  refuse_unused(!how.features.empty(), false, "--features", needs);
+  refuse_unused(how.inlier_px != usual.inlier_px, false, "--inlier-px", needs);
+  refuse_unused(how.no_ambiguous, false, "--no-ambiguous", needs);
+}
+
 }  // namespace
 
 PlanWorld load_plan_world(const fs::path& dataset, const std::vector<int>& images,
@@ -143,11 +154,13 @@ PlanWorld load_plan_world(const fs::path& dataset, const std::vector<int>& image
                                  : plan.objects;
   plan.world.static_structures = known(workcell.static_structures);
   if (plan.objects == "given") {
+    refuse_unused_search(source.how);
     use_given(scene, workcell, options.observe, stop, plan);
   } else if (is_method(method)) {
     options.method = reconstruction_method_of(method);
     use_reconstruction(scene, workcell, options, stop, plan);
   } else {
+    refuse_unused_search(source.how);
     use_file(scene, workcell, plan.objects, plan);
   }
   return plan;

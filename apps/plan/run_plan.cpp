@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
-#include <iostream>
 #include <optional>
 
 #include "cli/progress_line.hpp"
@@ -11,6 +10,8 @@
 #include "plan/report/plan_pictures.hpp"
 #include "plan/report/plan_summary.hpp"
 #include "plan/report/write_pictures.hpp"
+#include "process/output_folder.hpp"
+#include "process/result_output.hpp"
 #include "vantage/planner/advanced/mesh_scorer.hpp"
 #include "vantage/raycore/detail/file.hpp"
 #include "vantage/raycore/error.hpp"
@@ -24,12 +25,6 @@ namespace vantage {
 namespace {
 
 namespace fs = std::filesystem;
-
-void make_folder(const fs::path& folder) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error) throw bad_input(folder.string(), "cannot make this folder: " + error.message());
-}
 
 /// What no depth image shows, known objects or not, as the mesh method filters it.
 TriangleMesh unseen_surface_of(const Plan& plan, const WorldModel& world,
@@ -104,7 +99,7 @@ ExitCode run_plan(const WorldModel& world, const PlanRequest& request, PlanRecor
                   StopToken::Clock::time_point start) {
   Workers workers(run.threads);
   check_explained(request, output.explain);
-  if (!output.folder.empty()) make_folder(output.folder);
+  if (!output.folder.empty()) make_output_folder(output.folder);
 
   std::optional<ShadowRegions> regions;
   std::vector<ViewExplanation> explained;
@@ -122,15 +117,17 @@ ExitCode run_plan(const WorldModel& world, const PlanRequest& request, PlanRecor
   record.config.update(config_of(plan.request));
   warn_of(plan);
   const ShadowRegions* const found = regions ? &*regions : nullptr;
-  const std::string json = plan_to_json(plan, found, explained, record).dump(1) + "\n";
+  const nlohmann::ordered_json json = plan_to_json(plan, found, explained, record);
   if (!output.folder.empty()) {
-    write_file(output.folder / "plan.json", json);
+    write_file(output.folder / "plan.json", json_text(json));
     spdlog::info("wrote {}", (output.folder / "plan.json").string());
   }
-  std::cout << (output.json ? json : summary_of(plan, found, explained)) << std::flush;
+  const std::optional<Error> lost =
+      try_print_result(output.json, json, [&] { return summary_of(plan, found, explained); });
   if (regions) {
     workers.execute([&] { write_extras(plan, *regions, world, output, run); });
   }
+  if (lost) throw *lost;
   if (run.drawing.stop_requested()) return ExitCode::cancelled;
   return exit_code_of(plan);
 }

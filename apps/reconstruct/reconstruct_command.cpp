@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <iostream>
 #include <memory>
 
 #include "cli/command.hpp"
@@ -11,6 +10,8 @@
 #include "cli/shared_options.hpp"
 #include "cli/signal_handler.hpp"
 #include "cli/workers.hpp"
+#include "process/output_folder.hpp"
+#include "process/result_output.hpp"
 #include "reconstruct/overlay_picture.hpp"
 #include "reconstruct/reconstruct_options.hpp"
 #include "reconstruct/scene_warnings.hpp"
@@ -84,14 +85,16 @@ ExitCode reconstruct_command(const ReconstructCommand& command) {
   record.total_s = seconds_since(start);
   const auto json = world_to_json(scene, workcell, reconstruction, objects, record);
   if (!command.folder.empty()) {
-    fs::create_directories(command.folder);
-    write_file(command.folder / "world.json", json.dump(1) + "\n");
+    make_output_folder(command.folder);
+    write_file(command.folder / "world.json", json_text(json));
     spdlog::info("wrote {}", (command.folder / "world.json").string());
   }
-  std::cout << (command.json ? json.dump(1) + "\n" : summary_of_world(json)) << std::flush;
+  const std::optional<Error> lost =
+      try_print_result(command.json, json, [&] { return summary_of_world(json); });
   if (!command.folder.empty() && !command.no_pictures) {
     workers.execute([&] { write_overlays(scene, reconstruction, objects, command.folder, stop); });
   }
+  if (lost) throw *lost;
   return stop.stop_requested() ? ExitCode::cancelled : ExitCode::ok;
 }
 

@@ -1,4 +1,5 @@
 #include "simulate/bop_models.hpp"
+#include "process/result_output.hpp"
 
 #include <fmt/format.h>
 
@@ -230,7 +231,7 @@ void write_bop_models(const std::filesystem::path& folder, const std::vector<Bop
     write_file(folder / (name + ".ply"), bop_ply(*model.shape, model.name, name + ".png"));
     all[std::to_string(model.id)] = info_json(model);
   }
-  write_file(folder / "models_info.json", all.dump(1) + "\n");
+  write_file(folder / "models_info.json", json_text(all));
 }
 
 }  // namespace vantage

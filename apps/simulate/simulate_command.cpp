@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
-#include <iostream>
 #include <memory>
 #include <numbers>
 
@@ -15,6 +14,7 @@
 #include "options/command_line.hpp"
 #include "options/field_json.hpp"
 #include "options/sensor_fields.hpp"
+#include "process/result_output.hpp"
 #include "simulate/simulated_dataset.hpp"
 #include "simulate/simulation_record.hpp"
 
@@ -130,7 +130,7 @@ ExitCode simulate(const SimulateOptions& options) {
     const auto json =
         write_simulation_record(options.workcell, workcell, cell, settings, options.folder);
     if (!record(workcell, cell, settings.recording, options.folder, stop)) return false;
-    std::cout << (options.json ? json.dump(1) + "\n" : summary_of_simulation(json)) << std::flush;
+    print_result(options.json, json, [&] { return summary_of_simulation(json); });
     return true;
   });
   if (!complete) return ExitCode::cancelled;

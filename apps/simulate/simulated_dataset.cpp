@@ -1,4 +1,6 @@
 #include "simulate/simulated_dataset.hpp"
+#include "process/output_folder.hpp"
+#include "process/result_output.hpp"
 
 #include <fmt/format.h>
 
@@ -108,7 +110,7 @@ void check_recording(const Workcell& workcell, const RecordingOptions& options) 
 bool record(const Workcell& workcell, const SimulatedCell& cell, const RecordingOptions& options,
             const fs::path& folder, const StopToken& stop) {
   check_recording(workcell, options);
-  for (const char* name : {"rgb", "depth", "models"}) fs::create_directories(folder / name);
+  for (const char* name : {"rgb", "depth", "models"}) make_output_folder(folder / name);
   const std::vector<BopModel> models = bop_models(workcell);
   write_bop_models(folder / "models", models);
 
@@ -129,8 +131,8 @@ bool record(const Workcell& workcell, const SimulatedCell& cell, const Recording
     stop.advance(1);
   }
   write_calibrations(workcell, options, folder);
-  write_file(folder / "scene_gt.json", truth.dump(1) + "\n");
-  write_file(folder / "scene_camera.json", cameras.dump(1) + "\n");
+  write_file(folder / "scene_gt.json", json_text(truth));
+  write_file(folder / "scene_camera.json", json_text(cameras));
   return true;
 }
 

@@ -1,4 +1,6 @@
 #include "simulate/simulation_record.hpp"
+#include "process/output_folder.hpp"
+#include "process/result_output.hpp"
 
 #include <fmt/format.h>
 
@@ -100,7 +102,7 @@ void claim_folder(const fs::path& folder) {
                     "the folder is not empty, and what is in it was not simulated; name another "
                     "one, so that nothing is lost");
   }
-  fs::create_directories(folder);
+  make_output_folder(folder);
   fs::remove(folder / "scene_camera.json");
 }
 
@@ -119,7 +121,7 @@ Json write_simulation_record(const fs::path& workcell_file, const Workcell& work
                     {"true_volumes_m3", true_volumes_json(workcell, cell)},
                     {"inputs", inputs_json(workcell.files)}};
   write_cell_bundle(workcell_file, workcell, calibration_names(workcell, recording), folder);
-  write_file(folder / kRecordName, record.dump(1) + "\n");
+  write_file(folder / kRecordName, json_text(record));
   return record;
 }
 

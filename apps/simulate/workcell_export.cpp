@@ -1,4 +1,6 @@
 #include "simulate/workcell_export.hpp"
+#include "process/output_folder.hpp"
+#include "process/result_output.hpp"
 
 #include <fmt/format.h>
 
@@ -19,7 +21,7 @@ using SortedJson = nlohmann::json;
 constexpr const char* kCopies = "cell";
 
 std::string yaml_text(const SortedJson& root) {
-  return "# Written by vantage simulate: the recorded cell.\n" + root.dump(1) + "\n";
+  return "# Written by vantage simulate: the recorded cell.\n" + json_text(root);
 }
 
 /// Copies files into one folder, each once, and knows what they are called there.
@@ -72,7 +74,7 @@ class Copies {
   }
 
   void copy_models(const fs::path& folder, const std::string& name) {
-    fs::create_directories(folder_ / name);
+    make_output_folder(folder_ / name);
     for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
       const fs::path file = entry.path().filename();
       if (file != "models_info.json" && file.extension() != ".ply") continue;
@@ -92,7 +94,7 @@ class Copies {
     return name;
   }
   void write(const std::string& name, std::string_view bytes) {
-    fs::create_directories(folder_);
+    make_output_folder(folder_);
     write_file(folder_ / name, bytes);
   }
 

@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <iostream>
 #include <memory>
 
 #include "cli/command.hpp"
@@ -12,6 +11,7 @@
 #include "cli/workers.hpp"
 #include "plan/plan_input.hpp"
 #include "plan/plan_options.hpp"
+#include "process/result_output.hpp"
 #include "version.hpp"
 
 namespace vantage {
@@ -56,7 +56,7 @@ ExitCode validate(const ValidateCommand& command) {
     return load_plan_input(command.plan, stop);
   });
   if (stop.stop_requested()) return ExitCode::cancelled;
-  std::cout << (command.json ? json_of(input).dump(1) + "\n" : text_of(input)) << std::flush;
+  print_text(command.json ? json_of(input).dump(1) + "\n" : text_of(input));
   return input.warnings.empty() ? ExitCode::ok : ExitCode::bad_input;
 }
 

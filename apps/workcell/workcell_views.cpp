@@ -127,7 +127,7 @@ ViewConstraints read_constraints(const Value& root, const fs::path& folder,
   ViewConstraints limits = usual;
   if (root.has("reach")) read_reach(root["reach"], folder, files, limits);
   if (root.has("view_cone")) limits.view_cone = read_cone(root["view_cone"]);
-  read_fields(root, {"", "", {clearance_field(limits)}});
+  read_fields(root, {"", "", {clearance_field(limits), floor_field(limits)}});
   if (root.has("camera_body")) read_body(root["camera_body"], limits);
   return limits;
 }

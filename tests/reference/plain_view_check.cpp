@@ -96,7 +96,10 @@ double lowest_m(const ViewConstraints& limits, const Pose& pose) {
 
 bool body_bumps(const ViewConstraints& limits, const ReferenceScene& occupied, const Pose& pose,
                 ReconstructionEvaluator& judge) {
-  if (judge.below(lowest_m(limits, pose), limits.clearance_m)) return true;
+  if (limits.floor_z_m &&
+      judge.below(lowest_m(limits, pose) - *limits.floor_z_m, limits.clearance_m)) {
+    return true;
+  }
   if (const auto* body = std::get_if<BoxBody>(&limits.body)) {
     const double distance = nearest_surface(occupied, body->box, pose);
     if (distance == 0 || surrounded(occupied, pose * body->box.centre())) return true;

@@ -1,4 +1,3 @@
-#include <iostream>
 #include <memory>
 
 #include "cli/command.hpp"
@@ -12,6 +11,7 @@
 #include "options/field_json.hpp"
 #include "options/view_options.hpp"
 #include "options/volume_fields.hpp"
+#include "process/result_output.hpp"
 #include "vantage/raycore/error.hpp"
 #include "version.hpp"
 
@@ -108,12 +108,11 @@ ExitCode evaluate(const ExpectedGainCommandOptions& options) {
       stop.advance(1);
     }
   });
-  if (options.json) {
-    std::cout << json_of(cells).dump(1) << "\n";
-  } else {
-    for (const ReportTable& table : gain_tables(cells)) std::cout << table_text(table) << "\n";
-  }
-  std::cout << std::flush;
+  print_result(options.json, json_of(cells), [&] {
+    std::string text;
+    for (const ReportTable& table : gain_tables(cells)) text += table_text(table) + "\n";
+    return text;
+  });
   return stop.stop_requested() ? ExitCode::cancelled : ExitCode::ok;
 }
 

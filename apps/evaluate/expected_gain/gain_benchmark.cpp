@@ -59,7 +59,7 @@ CellGains evaluate_expected_gain(const PlanningCell& cell, const std::vector<Gai
   }
   if (!candidates || truth == nullptr) return result;
   const PlanningScene scene(cell.world, plan.classified, request.volume.occluders);
-  const ExpectedScorer expected(scene, cell.world, request.volume, request.gain);
+  const ExpectedScorer expected(scene, cell.world, request.volume, request.gain_options());
   const VoxelScorer bound(scene);
   for (const ScoredCandidate& candidate : plan.candidates) {
     if (candidate.rejected != InvalidReason::none || stop.stop_requested()) continue;

@@ -1,4 +1,3 @@
-#include <iostream>
 #include <memory>
 
 #include "cli/command.hpp"
@@ -8,6 +7,7 @@
 #include "cli/signal_handler.hpp"
 #include "cli/workers.hpp"
 #include "evaluate/gain/true_gain.hpp"
+#include "process/result_output.hpp"
 
 namespace vantage {
 namespace {
@@ -42,7 +42,7 @@ ExitCode evaluate_gain(const GainCommandOptions& options) {
     return true_gain(options.workcell, options.plan, options.chosen(), stop);
   });
   if (stop.stop_requested()) return ExitCode::cancelled;
-  std::cout << (options.json ? gain.dump(1) + "\n" : summary_of_true_gain(gain)) << std::flush;
+  print_result(options.json, gain, [&] { return summary_of_true_gain(gain); });
   return ExitCode::ok;
 }
 

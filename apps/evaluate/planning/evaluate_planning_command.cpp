@@ -2,7 +2,6 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
-#include <iostream>
 #include <memory>
 
 #include "cli/command.hpp"
@@ -17,6 +16,8 @@
 #include "options/field_json.hpp"
 #include "options/view_options.hpp"
 #include "plan/report/plan_json.hpp"
+#include "process/output_folder.hpp"
+#include "process/result_output.hpp"
 #include "vantage/raycore/detail/file.hpp"
 #include "version.hpp"
 
@@ -137,8 +138,8 @@ std::vector<std::string> settings_text(const PlanningCommandOptions& options,
 void write(const PlanningCommandOptions& options, const PlanningBenchmarkOptions& settings,
            const PlanningResult& result, const Json& json) {
   const fs::path& folder = options.folder;
-  fs::create_directories(folder);
-  write_file(folder / "planning.json", json.dump(1) + "\n");
+  make_output_folder(folder);
+  write_file(folder / "planning.json", json_text(json));
   for (const std::string& set : settings.sets) {
     write_file(folder / ("planning_" + set + ".svg"), run_time_chart(result.evaluation, set));
   }
@@ -171,7 +172,7 @@ ExitCode evaluate(const PlanningCommandOptions& options) {
   Json json = json_of(result, options, settings);
   json["partial"] = stop.stop_requested();
   if (!options.folder.empty()) write(options, settings, result, json);
-  std::cout << (options.json ? json.dump(1) + "\n" : text_of(result.evaluation)) << std::flush;
+  print_result(options.json, json, [&] { return text_of(result.evaluation); });
   return exit_code;
 }
 

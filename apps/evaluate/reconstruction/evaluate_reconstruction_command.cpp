@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <charconv>
-#include <iostream>
 #include <memory>
 
 #include "cli/command.hpp"
@@ -14,6 +13,8 @@
 #include "cli/signal_handler.hpp"
 #include "cli/workers.hpp"
 #include "evaluate/reconstruction/evaluation_report.hpp"
+#include "process/output_folder.hpp"
+#include "process/result_output.hpp"
 #include "reconstruct/reconstruct_options.hpp"
 #include "vantage/raycore/detail/file.hpp"
 #include "vantage/raycore/error.hpp"
@@ -98,8 +99,8 @@ Json config_json(const EvaluationCommandOptions& arguments) {
 }
 
 void write(const fs::path& folder, const Json& json, const std::string& plot) {
-  fs::create_directories(folder);
-  write_file(folder / "reconstruction.json", json.dump(1) + "\n");
+  make_output_folder(folder);
+  write_file(folder / "reconstruction.json", json_text(json));
   write_file(folder / "reconstruction.svg", plot);
   spdlog::info("wrote {} and reconstruction.svg", (folder / "reconstruction.json").string());
 }
@@ -131,8 +132,7 @@ ExitCode evaluate(const EvaluationCommandOptions& arguments) {
         arguments.folder, json,
         plot_of_evaluation(evaluation, "Reconstruction of " + fs::path(name).filename().string()));
   }
-  std::cout << (arguments.json ? json.dump(1) + "\n" : summary_of_evaluation(evaluation))
-            << std::flush;
+  print_result(arguments.json, json, [&] { return summary_of_evaluation(evaluation); });
   return ExitCode::ok;
 }
 

@@ -1,6 +1,5 @@
 #include <spdlog/spdlog.h>
 
-#include <iostream>
 #include <memory>
 
 #include "cli/command.hpp"
@@ -16,6 +15,8 @@
 #include "options/command_line.hpp"
 #include "options/view_options.hpp"
 #include "plan/plan_options.hpp"
+#include "process/output_folder.hpp"
+#include "process/result_output.hpp"
 #include "vantage/raycore/detail/file.hpp"
 
 namespace vantage {
@@ -95,11 +96,11 @@ ExitCode evaluate(const ReplayCommandOptions& arguments) {
   json["config"] = config_json(arguments, input);
   json["inputs"] = inputs_json(input.record.inputs);
   if (!arguments.folder.empty()) {
-    fs::create_directories(arguments.folder);
-    write_file(arguments.folder / "replay.json", json.dump(1) + "\n");
+    make_output_folder(arguments.folder);
+    write_file(arguments.folder / "replay.json", json_text(json));
     spdlog::info("wrote {}", (arguments.folder / "replay.json").string());
   }
-  std::cout << (arguments.json ? json.dump(1) + "\n" : text_of(evaluation)) << std::flush;
+  print_result(arguments.json, json, [&] { return text_of(evaluation); });
   return exit_code;
 }
 

@@ -101,7 +101,7 @@ class Replay {
     }
     result.views.resize(others.size());
     const VoxelScorer voxels(scene);
-    const ExpectedScorer expected(scene, two, input_.request.volume, input_.request.gain);
+    const ExpectedScorer expected(scene, two, input_.request.volume, input_.request.gain_options());
     tbb::parallel_for(std::size_t(0), others.size(), [&](std::size_t i) {
       if (stop_.stop_requested()) return;
       const DepthCamera& frame = frames_[others[i]];
@@ -122,7 +122,8 @@ class Replay {
                                               const WorldModel& two) const {
     const PlanRequest& request = input_.request;
     if (method.value == ViewValue::expected) {
-      return std::make_unique<const ExpectedScorer>(scene, two, request.volume, request.gain);
+      return std::make_unique<const ExpectedScorer>(scene, two, request.volume,
+                                                    request.gain_options());
     }
     return make_view_scorer(method.method, scene, two, frames_.front().camera.range(),
                             request.volume.noise);

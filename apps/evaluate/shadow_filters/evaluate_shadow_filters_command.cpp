@@ -1,4 +1,3 @@
-#include <iostream>
 #include <memory>
 
 #include "cli/command.hpp"
@@ -10,6 +9,7 @@
 #include "cli/workers.hpp"
 #include "evaluate/shadow_filters/shadow_filter_benchmark.hpp"
 #include "evaluate/shadow_filters/shadow_filter_json.hpp"
+#include "process/result_output.hpp"
 
 namespace vantage {
 namespace {
@@ -78,9 +78,8 @@ ExitCode evaluate(ShadowFilterCommandOptions options) {
     }
   });
   if (stop.stop_requested()) return ExitCode::cancelled;
-  std::cout << (options.json ? json_of(evaluation, options, cells).dump(1) + "\n"
-                             : text_of(evaluation))
-            << std::flush;
+  print_result(options.json, json_of(evaluation, options, cells),
+               [&] { return text_of(evaluation); });
   return ExitCode::ok;
 }
 

@@ -71,7 +71,8 @@ Json config_of(const ViewConstraints& limits) {
             {"map", limits.reach_map ? map_json(*limits.reach_map) : Json()}}},
           {"view_cone", cone},
           {"camera_body", body_json(limits)},
-          {"clearance_m", limits.clearance_m}};
+          {"clearance_m", limits.clearance_m},
+          {"floor_z_m", limits.floor_z_m ? Json(*limits.floor_z_m) : Json()}};
 }
 
 }  // namespace vantage

@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 #include "cli/volume_text.hpp"
@@ -19,11 +20,29 @@ std::string rejections(const Plan& plan) {
   return text;
 }
 
-std::string camera_text(const Pose& T_world_cam) {
-  const Eigen::Vector3d& p = T_world_cam.translation();
+/// Which setting to change where the floor forbids most candidates.
+std::string floor_hint(const Plan& plan) {
+  const auto below = std::ranges::count(plan.candidates, InvalidReason::below_the_floor,
+                                        &ScoredCandidate::rejected);
+  if (2 * below < std::ssize(plan.candidates) || below == 0) return "";
+  return fmt::format(
+      "floor      most candidates are below the floor at z = {} m: if it is elsewhere, say so with "
+      "--floor-z Z or none, or floor_z_m in the workcell\n",
+      plan.request.constraints.floor_z_m.value_or(0));
+}
+
+/// A point in metres: three decimals in a work area of decimetres, more in a smaller one.
+std::string point_text(const Plan& plan, const Eigen::Vector3d& p) {
+  const double across_m = plan.request.work_area.size().norm();
+  const int decimals = 3 + int(std::clamp(std::floor(-std::log10(across_m)), 0.0, 6.0));
+  return fmt::format("[{:.{}f}, {:.{}f}, {:.{}f}] m", p.x(), decimals, p.y(), decimals, p.z(),
+                     decimals);
+}
+
+std::string camera_text(const Plan& plan, const Pose& T_world_cam) {
   const Eigen::Vector3d look = T_world_cam.rotation().col(2);
-  return fmt::format("at [{:.3f}, {:.3f}, {:.3f}] m, looking along [{:.3f}, {:.3f}, {:.3f}]", p.x(),
-                     p.y(), p.z(), look.x(), look.y(), look.z());
+  return fmt::format("at {}, looking along [{:.3f}, {:.3f}, {:.3f}]",
+                     point_text(plan, T_world_cam.translation()), look.x(), look.y(), look.z());
 }
 
 /// The pose in full: a quaternion, and T_world_cam as a matrix.
@@ -95,7 +114,7 @@ std::string best_summary(const Plan& plan) {
       "camera     {}\n"
       "{}"
       "reveals    {}\n",
-      origin_text(plan, best), camera_text(best.T_world_cam), pose_text(best.T_world_cam),
+      origin_text(plan, best), camera_text(plan, best.T_world_cam), pose_text(best.T_world_cam),
       reveals_text(plan, plan.views.front().revealed_voxels, best.gain));
   if (!std::holds_alternative<VoxelMethod>(plan.request.method)) {
     text += fmt::format("score      {:.6g} {} (method {})\n", plan.in_units(best.score),
@@ -108,7 +127,7 @@ std::string best_summary(const Plan& plan) {
     revealed += next.revealed_voxels;
     text += fmt::format("view {:<6}candidate {} {}\n           reveals {} more\n", i + 1,
                         plan.candidates[next.view.candidate].view.id,
-                        camera_text(next.view.T_world_cam),
+                        camera_text(plan, next.view.T_world_cam),
                         reveals_text(plan, next.revealed_voxels, next.view.gain));
   }
   if (plan.views.size() > 1) {
@@ -127,7 +146,8 @@ std::string no_view_summary(const Plan& plan) {
   return "no view: none of the candidates reveals any shadow\n";
 }
 
-std::string shadow_summary(const StateGrid& grid, const ShadowRegions& regions) {
+std::string shadow_summary(const Plan& plan, const ShadowRegions& regions) {
+  const StateGrid& grid = *plan.classified;
   const double voxel_m3 = grid.geometry().voxel_volume_m3();
   const std::uint64_t unmeasured = grid.report().unmeasured_shadow;
   const std::uint64_t outside = grid.report().outside_shadow;
@@ -139,9 +159,9 @@ std::string shadow_summary(const StateGrid& grid, const ShadowRegions& regions) 
       regions.list().size() == 1 ? "region" : "regions");
   if (regions.list().size() > 1) {
     const ShadowRegion& largest = regions.list().front();
-    text += fmt::format(", the largest {} around [{:.3f}, {:.3f}, {:.3f}] m",
-                        volume_text(double(largest.voxels) * voxel_m3), largest.centroid_m.x(),
-                        largest.centroid_m.y(), largest.centroid_m.z());
+    text +=
+        fmt::format(", the largest {} around {}", volume_text(double(largest.voxels) * voxel_m3),
+                    point_text(plan, largest.centroid_m));
   }
   return text + "\n";
 }
@@ -155,7 +175,7 @@ std::string volume_summary(const Plan& plan, const ShadowRegions& regions) {
                   volume_text(grid.volume_m3(VoxelState::occupied)),
                   volume_text(grid.volume_m3(VoxelState::free)),
                   volume_text(grid.volume_m3(VoxelState::shadow)));
-  text += shadow_summary(grid, regions);
+  text += shadow_summary(plan, regions);
   if (plan.request.volume.anti_aliased()) {
     text += fmt::format("anti-alias {} of thin shadow became free\n",
                         volume_text(double(grid.report().aliased_shadow) * voxel_m3));
@@ -177,7 +197,7 @@ std::string explanation(const Plan& plan, const ViewExplanation& view) {
   for (std::size_t i = 0; i < view.trace.size(); ++i) {
     const ScoredStep& step = view.trace[i];
     text += fmt::format("  servo {:<2} {:<7} {}: {:.6g} {}{}\n", i, to_text(step.step.move),
-                        camera_text(step.step.T_world_cam), plan.in_units(step.score.score),
+                        camera_text(plan, step.step.T_world_cam), plan.in_units(step.score.score),
                         plan.score_unit_name, i == view.best_step ? "  <- best" : "");
   }
   for (const ScoreTerm& term : view.terms) {
@@ -205,6 +225,7 @@ std::string summary_of(const Plan& plan, const ShadowRegions* regions,
   }
   const std::string rejected = rejections(plan);
   if (!rejected.empty()) text += "rejected   " + rejected + "\n";
+  text += floor_hint(plan);
   text += volume_summary(plan, *regions);
   for (const ViewExplanation& view : explained) text += explanation(plan, view);
   return text;

@@ -79,6 +79,9 @@ void ViewConstraints::check() const {
   if (reach_map) reach_map->check("reach map");
   if (view_cone) view_cone->check("view cone");
   check_length(clearance_m, "clearance");
+  if (floor_z_m && !std::isfinite(*floor_z_m)) {
+    throw bad_input("floor", fmt::format("its height is {} m; expected a number", *floor_z_m));
+  }
   if (const SphereBody* sphere = std::get_if<SphereBody>(&body)) {
     check_length(sphere->radius_m, "radius of the camera's body");
   }

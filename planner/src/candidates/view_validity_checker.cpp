@@ -33,7 +33,9 @@ double lowest_m(const ViewConstraints& limits, const Pose& T_world_cam) {
 /// Whether the camera's body is closer to a surface or the floor than the clearance, or has one
 /// inside, or is inside itself.
 bool too_close(const ViewConstraints& limits, const Scene& occupied, const Pose& T_world_cam) {
-  if (lowest_m(limits, T_world_cam) < limits.clearance_m) return true;
+  if (limits.floor_z_m && lowest_m(limits, T_world_cam) < *limits.floor_z_m + limits.clearance_m) {
+    return true;
+  }
   if (const BoxBody* body = std::get_if<BoxBody>(&limits.body)) {
     // The camera's centre is known to be outside of everything; a box beside it may not be.
     return occupied.closer_than(limits.clearance_m, body->box, T_world_cam) ||
@@ -92,7 +94,9 @@ ViewValidityChecker::ViewValidityChecker(const ViewConstraints& constraints, Pla
 
 InvalidReason ViewValidityChecker::built_in(const Pose& T_world_cam) const {
   const Eigen::Vector3d& centre = T_world_cam.translation();
-  if (centre.z() <= 0) return InvalidReason::below_the_floor;
+  if (constraints_.floor_z_m && centre.z() <= *constraints_.floor_z_m) {
+    return InvalidReason::below_the_floor;
+  }
   if (!in_reach(constraints_, centre)) return InvalidReason::out_of_reach;
   if (constraints_.view_cone && !in_cone(*constraints_.view_cone, T_world_cam.rotation().col(2))) {
     return InvalidReason::outside_the_view_cone;

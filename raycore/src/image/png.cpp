@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "vantage/raycore/detail/file.hpp"
+#include "vantage/raycore/detail/limits.hpp"
 #include "vantage/raycore/error.hpp"
 #include "vantage/raycore/image_io.hpp"
 
@@ -22,7 +23,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uint32_t kMaxSide = 16384;
 constexpr std::size_t kHeaderBytes = 8 + 8 + 13;  // signature, IHDR's length and name, its content
 /// Deflate packs 258 bytes into no less than two bits.
 constexpr std::uint64_t kMaxDeflateRatio = 1032;
@@ -103,7 +103,7 @@ class Decoder {
   /// `rows` have to have the size that the file's header has.
   bool decode(png_bytepp rows) {
     if (setjmp(png_jmpbuf(png_)) != 0) return false;
-    png_set_user_limits(png_, kMaxSide, kMaxSide);
+    png_set_user_limits(png_, limits::kMaxImageSide, limits::kMaxImageSide);
     png_set_read_fn(png_, &bytes_, take);
     png_read_info(png_, info_);
     if (std::endian::native == std::endian::little) png_set_swap(png_);
@@ -206,9 +206,13 @@ Size check_header(std::span<const std::uint8_t> bytes, const std::string& file) 
   if (bits != 16) {
     throw bad_input(file, fmt::format("has {} bits per sample; depth needs 16", bits));
   }
-  if (size.width == 0 || size.height == 0 || size.width > kMaxSide || size.height > kMaxSide) {
-    throw bad_input(file, fmt::format("states {} x {} pixels; expected 1 to {} along each side",
-                                      size.width, size.height, kMaxSide));
+  if (size.width == 0 || size.height == 0 || size.width > limits::kMaxImageSide ||
+      size.height > limits::kMaxImageSide ||
+      std::uint64_t(size.width) * size.height > limits::kMaxImagePixels) {
+    throw bad_input(
+        file, fmt::format("states {} x {} pixels; expected 1 to {} along each side, and "
+                          "at most {} in all",
+                          size.width, size.height, limits::kMaxImageSide, limits::kMaxImagePixels));
   }
   const std::uint64_t needed = std::uint64_t(2) * size.width * size.height;
   if (needed > kMaxDeflateRatio * bytes.size()) {
@@ -229,9 +233,11 @@ void write_png(const fs::path& path, const RawDepthImage& image) {
   write_image(path, image, PNG_COLOR_TYPE_GRAY, 6);
 }
 
-RawDepthImage read_png_counts(const fs::path& path) {
-  const std::vector<std::uint8_t> bytes = read_file(path);
+RawDepthImage read_png_counts(const fs::path& path,
+                              const std::function<void(int width, int height)>& accept) {
+  const std::vector<std::uint8_t> bytes = read_file(path, limits::kMaxImageBytes);
   const Size size = check_header(bytes, path.string());
+  if (accept) accept(int(size.width), int(size.height));
   RawDepthImage image(int(size.width), int(size.height));
   std::vector<png_bytep> rows = row_pointers(image);
   Decoder decoder(bytes);

@@ -18,6 +18,7 @@
 #include "images/depth_file.hpp"
 #include "images/numbered_images.hpp"
 #include "vantage/raycore/detail/file.hpp"
+#include "vantage/raycore/detail/limits.hpp"
 #include "vantage/raycore/error.hpp"
 
 namespace vantage {
@@ -225,6 +226,19 @@ class Loader {
   std::vector<NumberedImages> colors_;
 };
 
+/// @throws Error bad_input where the scene's depth images come to more than a gibibyte.
+void check_pixels(const BopScene& scene) {
+  std::uint64_t pixels = 0;
+  for (const BopImage& image : scene.images) {
+    if (image.depth != nullptr) pixels += image.depth->metres().size();
+  }
+  if (pixels <= limits::kMaxScenePixels) return;
+  throw bad_input(scene.folder.string(),
+                  fmt::format("its first {} depth images have more than {} pixels together; choose "
+                              "some with --images",
+                              scene.images.size(), limits::kMaxScenePixels));
+}
+
 }  // namespace
 
 PinholeCamera BopImage::camera() const {
@@ -265,6 +279,7 @@ BopScene load_bop_scene(const fs::path& folder, const DepthRange& range,
     Loader& loader =
         loaders.try_emplace(entry.sensor.first_id, scene, entry.sensor, range).first->second;
     scene.images.push_back(loader.load(id, entry.number, entry.entry));
+    check_pixels(scene);
   }
   return scene;
 }

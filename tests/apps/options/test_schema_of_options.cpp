@@ -46,6 +46,7 @@ TEST_CASE("the workcell's schema has the fields of the options, word for word") 
       properties_of({"", "", {voxel_size_field(voxel_size_m)}, {body_fields(constraints)}});
   check_same("/properties/voxel_size_m", root["voxel_size_m"]);
   check_same("/properties/clearance_m", root["clearance_m"]);
+  check_same("/properties/floor_z_m", root["floor_z_m"]);
   const Json& body = root["camera_body"];  // a name, or a shape
   check_same("/properties/camera_body/description", body["description"]);
   check_same("/properties/camera_body/default", body["default"]);

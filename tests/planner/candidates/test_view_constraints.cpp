@@ -70,6 +70,22 @@ TEST_CASE("without limits a view is in the open, above the floor") {
   CHECK(cell.check({}, {0.5, 0, -0.1}) == InvalidReason::below_the_floor);
 }
 
+TEST_CASE("the floor is a setting: elsewhere, or none") {
+  const Cell cell;
+  ViewConstraints limits{.clearance_m = 0.02, .body = SphereBody{0.03}, .floor_z_m = -0.7};
+  CHECK(cell.check(limits, {0.5, 0, -0.1}) == InvalidReason::none);
+  CHECK(cell.check(limits, {0.5, 0, -0.649}) == InvalidReason::none);
+  CHECK(cell.check(limits, {0.5, 0, -0.651}) == InvalidReason::too_close_to_occupied);
+  CHECK(cell.check(limits, {0.5, 0, -0.7}) == InvalidReason::below_the_floor);
+  limits.floor_z_m = 0.3;
+  CHECK(cell.check(limits, {0.5, 0, 0.2}) == InvalidReason::below_the_floor);
+  CHECK(cell.check(limits, {0.5, 0, 0.34}) == InvalidReason::too_close_to_occupied);
+  limits.floor_z_m.reset();
+  CHECK(cell.check(limits, {0.5, 0, -2.5}) == InvalidReason::none);
+  limits.floor_z_m = NAN;
+  test::expect_bad_input("floor", "nan", [&] { limits.check(); });
+}
+
 TEST_CASE("a view is where the robot reaches: shell, box and map at once") {
   const Cell cell;
   const ViewConstraints shell{.reach = Reach{{0, 0, 0}, 0.3, 0.8}};

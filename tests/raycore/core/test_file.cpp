@@ -58,6 +58,26 @@ TEST_CASE("a new file has the permissions that the user's mask leaves") {
   CHECK(fs::status(folder / "x").permissions() == fs::perms(0644));
 }
 
+TEST_CASE("abandoned temporary files are removed, those in use and others' stay") {
+  const test::TemporaryFolder folder;
+  for (const char* name : {".vantage-7-1", ".vantage-7-12.png", ".vantage-x-1", ".vantage-7-",
+                           ".vantage--1", ".vantage-7-1x", "vantage-7-1"}) {
+    folder.write(name, "x");
+  }
+  fs::create_symlink(folder / "vantage-7-1", folder / ".vantage-8-1");
+  write_file_with(folder / "y", [&](const fs::path& temporary) {
+    remove_abandoned_files(folder.path());  // as another process would
+    CHECK(fs::exists(temporary));
+    CHECK(temporary.filename().string().starts_with(".vantage-"));
+  });
+  CHECK(fs::exists(folder / "y"));
+  CHECK(!fs::exists(folder / ".vantage-7-1"));
+  CHECK(!fs::exists(folder / ".vantage-7-12.png"));
+  CHECK(fs::is_symlink(folder / ".vantage-8-1"));
+  CHECK(file_count(folder.path()) == 7);
+  CHECK_NOTHROW(remove_abandoned_files(folder / "nowhere"));
+}
+
 TEST_CASE("what cannot be read is named with the reason") {
   const test::TemporaryFolder folder;
   test::expect_bad_input("missing.bin", "No such file", [&] { read_file(folder / "missing.bin"); });

@@ -1,4 +1,5 @@
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 
 #include <vantage/raycore/image_io.hpp>
 
@@ -115,12 +116,26 @@ TEST_CASE("a header that claims more than the file can hold is refused") {
   const test::TemporaryFolder folder;
   const std::string whole = png_bytes(folder, ramp());
   const std::string size = bytes_of("\0\0\0\x1f\0\0\0\x11");
-  expect_refused(test::replaced(whole, size, bytes_of("\0\0\x40\0\0\0\x40\0")),
-                 "states 16384 x 16384 pixels, more than");
+  expect_refused(test::replaced(whole, size, bytes_of("\0\0\x1f\x40\0\0\x1f\x40")),
+                 "states 8000 x 8000 pixels, more than");
+  expect_refused(test::replaced(whole, size, bytes_of("\0\0\x40\0\0\0\x10\1")),
+                 "states 16384 x 4097 pixels; expected 1 to 16384 along each side, and at most "
+                 "67108864 in all");
   expect_refused(test::replaced(whole, size, bytes_of("\0\0\x40\1\0\0\0\1")),
                  "states 16385 x 1 pixels; expected 1 to 16384");
   expect_refused(test::replaced(whole, size, bytes_of("\0\0\0\0\0\0\0\x11")), "states 0 x 17");
   expect_refused(test::replaced(whole, "IHDR", "IHDX"), "does not begin with the chunk IHDR");
+}
+
+TEST_CASE("the size in the header can be refused before the pixels are decoded") {
+  const test::TemporaryFolder folder;
+  std::string bytes = png_bytes(folder, ramp());
+  const auto file =
+      folder.write("half.png", bytes.substr(0, bytes.size() / 2));  // no pixels to get
+  const auto refuse = [](int width, int height) {
+    throw bad_input("here", fmt::format("{} x {}", width, height));
+  };
+  test::expect_bad_input("here", "31 x 17", [&] { read_png_counts(file, refuse); });
 }
 
 TEST_CASE("a damaged byte never gives another image") {

@@ -79,14 +79,14 @@ struct Share {
 };
 
 Share share_of(const std::vector<DepthSample>& samples) {
-  constexpr double kFar = 5;
+  constexpr double kTooFar = 5;
   Share share;
   for (const DepthSample& sample : samples) {
     if (!sample.area) continue;
     ++share.crossing;
     share.before += sample.depth_m < sample.area->enter_m;
-    share.far_before += kFar * sample.depth_m < sample.area->enter_m;
-    share.far_behind += sample.depth_m > kFar * sample.area->exit_m;
+    share.far_before += kTooFar * sample.depth_m < sample.area->enter_m;
+    share.far_behind += sample.depth_m > kTooFar * sample.area->exit_m;
   }
   return share;
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "vantage/raycore/export.hpp"
 #include "vantage/volume/stereo_sensor.hpp"
@@ -25,6 +26,10 @@ struct ExpectedGainOptions {
   /// thing w wide is inside of it with probability exp(-(s / (unknown_depth w))²). The default is
   /// from simulated cells (`vantage evaluate expected-gain`). 0: nothing unknown stands anywhere.
   double unknown_depth = 0.8;
+
+  /// Height of the floor, world frame, of which the given images tell how often it gives a reading;
+  /// none: rays that meet nothing known end nowhere. `plan` takes `ViewConstraints::floor_z_m`.
+  std::optional<double> floor_z_m = 0.0;
 
   /// @throws Error bad_input as `StereoSensor::check` does, and unless the depth is finite and not
   /// negative.

@@ -48,6 +48,13 @@ struct PlanRequest {
   /// How the work area is classified, what hides from a new view, and how noisy depths are: its
   /// `noise` is the only noise model of a request, and a D435's unless you say your sensor's.
   VolumeOptions volume = {};
+
+  /// `gain` over the floor of the constraints, which it is reckoned with.
+  ExpectedGainOptions gain_options() const {
+    ExpectedGainOptions options = gain;
+    options.floor_z_m = constraints.floor_z_m;
+    return options;
+  }
 };
 
 /// One of the views to take, in their order.

@@ -85,10 +85,11 @@ struct ViewConstraints {
   std::optional<Box> reach_box = {};               ///< world frame
   std::shared_ptr<const ReachMap> reach_map = {};  ///< null: none
   std::optional<ViewCone> view_cone = {};
-  /// Least distance of the body from all that is occupied, and from the floor at z = 0. Not from
+  /// Least distance of the body from all that is occupied, and from the floor. Not from
   /// shadow, which is occupied only perhaps: the body must not overlap it, but may be beside it.
   double clearance_m = 0.02;
   CameraBody body = d435_body();
+  std::optional<double> floor_z_m = 0.0;  ///< height of the floor, world frame; none: no floor
   /// Asked in their order, and only of poses that all of the above allows: candidates, every servo
   /// iteration and every step of polishing, of the first view and of those after it.
   std::vector<ViewCheck> checks = {};
@@ -98,14 +99,14 @@ struct ViewConstraints {
   VANTAGE_API static ViewConstraints bare();
 
   /// @throws Error bad_input as its parts do; for a clearance or a radius that is negative or not
-  /// finite, and for an empty check.
+  /// finite, for a floor that is not finite, and for an empty check.
   VANTAGE_API void check() const;
 };
 
 /// Why a camera cannot be at a pose, in the order in which it is tested.
 enum class InvalidReason : std::uint8_t {
   none,
-  below_the_floor,  ///< z <= 0
+  below_the_floor,  ///< not above floor_z_m
   out_of_reach,
   outside_the_view_cone,
   inside_occupied_volume,

@@ -119,9 +119,11 @@ struct Passage {
   }
 };
 
-/// Where a ray meets the floor at z = 0, if it does within the range, and steeply enough.
-std::optional<double> floor_depth(const GivenDepth& image, const PixelRay& ray) {
-  const double depth = -ray.origin.z() / ray.direction.z();
+/// Where a ray meets the floor, if it does within the range.
+std::optional<double> floor_depth(const GivenDepth& image, const PixelRay& ray,
+                                  const std::optional<double>& floor_z_m) {
+  if (!floor_z_m) return std::nullopt;
+  const double depth = (*floor_z_m - ray.origin.z()) / ray.direction.z();
   const bool there = ray.direction.z() < 0 && depth >= image.camera.range().near_m &&
                      depth <= image.camera.range().far_m;
   if (!there) return std::nullopt;
@@ -129,10 +131,10 @@ std::optional<double> floor_depth(const GivenDepth& image, const PixelRay& ray) 
 }
 
 void add_reading(const GivenDepth& image, std::size_t pixel, const PixelRay& ray,
-                 LearnedRates& rates) {
+                 const std::optional<double>& floor_z_m, LearnedRates& rates) {
   const double measured = double(image.measured[pixel]);
   if (std::isfinite(image.known[pixel])) return;
-  const std::optional<double> floor = floor_depth(image, ray);
+  const std::optional<double> floor = floor_depth(image, ray, floor_z_m);
   if (!floor) {
     ++rates.beyond.pixels;
     rates.beyond.readings += measured <= image.camera.range().far_m;
@@ -162,13 +164,14 @@ std::vector<GivenDepth> given_depths(const WorldModel& world, const VolumeOption
   return images;
 }
 
-LearnedRates learned_rates(const std::vector<GivenDepth>& images, const Box& work_area) {
+LearnedRates learned_rates(const std::vector<GivenDepth>& images, const Box& work_area,
+                           const std::optional<double>& floor_z_m) {
   LearnedRates rates{0, FloorRates(work_area.centre().head<2>()), {}};
   Passage passage;
   for (const GivenDepth& image : images) {
     for_each_ray(image, [&](std::size_t pixel, const PixelRay& ray) {
       passage.add(image, pixel, ray, work_area);
-      add_reading(image, pixel, ray, rates);
+      add_reading(image, pixel, ray, floor_z_m, rates);
     });
   }
   if (passage.stops > 0) rates.hazard_per_m = double(passage.stops) / passage.length_m;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "scoring/expected/unseen_model.hpp"
@@ -30,7 +31,9 @@ std::vector<GivenDepth> given_depths(const WorldModel& world, const VolumeOption
                                      double voxel_m);
 
 /// How often light comes back, and how often something unknown is in the way.
-LearnedRates learned_rates(const std::vector<GivenDepth>& images, const Box& work_area);
+/// @param floor_z_m height of the floor; none: there is no floor.
+LearnedRates learned_rates(const std::vector<GivenDepth>& images, const Box& work_area,
+                           const std::optional<double>& floor_z_m);
 
 /// What the images show, in the work area and beyond: triangles between neighbouring pixels whose
 /// depths belong to one surface.

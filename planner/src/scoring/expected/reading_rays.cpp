@@ -45,8 +45,8 @@ class SensorRays {
  private:
   double reading_of_nothing(const Eigen::Vector3d& direction, double u) const {
     const Eigen::Vector3d& centre = view_.centre();
-    const double z = -centre.z() / direction.z();
-    const bool floor = direction.z() < 0 && z <= view_.range().far_m;
+    const double z = (model_.floor_z_m.value_or(0) - centre.z()) / direction.z();
+    const bool floor = model_.floor_z_m && direction.z() < 0 && z <= view_.range().far_m;
     if (!floor) return model_.rates.beyond.share(0);
     if (!in_both_images(z, u) || !steep(direction, Eigen::Vector3d::UnitZ())) return 0;
     return model_.rates.floor.at((centre + z * direction).head<2>());
@@ -70,7 +70,8 @@ class SensorRays {
   bool steep(std::size_t i, const Eigen::Vector3d& direction) const {
     if (!background(i)) return steep(direction, hits_.normal[i].cast<double>());
     // Neighbouring depths are too noisy for a normal.
-    const double height = view_.centre().z() + depth(i) * direction.z();
+    if (!model_.floor_z_m) return true;
+    const double height = view_.centre().z() + depth(i) * direction.z() - *model_.floor_z_m;
     return std::abs(height) > kLevelFloorM || steep(direction, Eigen::Vector3d::UnitZ());
   }
 

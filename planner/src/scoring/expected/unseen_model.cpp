@@ -61,11 +61,12 @@ UnseenModel::UnseenModel(const PlanningScene& scene, const WorldModel& world,
       cells(scene.grid().geometry()),
       rates{0, FloorRates(Eigen::Vector2d::Zero()), {}},
       voxel_m(scene.grid().geometry().voxel_size_m()),
+      floor_z_m(options.floor_z_m),
       half_band_1m(0.5 * volume.band_sigmas * volume.noise.sigma_m(1)),
       ideal(options.sensor == StereoSensor::ideal()) {
   const Box area = scene.grid().geometry().box();
   const std::vector<GivenDepth> images = given_depths(world, volume, voxel_m);
-  rates = learned_rates(images, area);
+  rates = learned_rates(images, area, floor_z_m);
   if (options.unknown_depth == 0) rates.hazard_per_m = 0;
   fill_cells(scene.shadow_centres(), images, options.unknown_depth, cells);
   nothing_unknown = rates.hazard_per_m == 0 &&

@@ -40,7 +40,7 @@ struct ReadingRate {
   }
 };
 
-/// How often the given images have a reading of the floor at z = 0, by place.
+/// How often the given images have a reading of the floor, by place.
 class FloorRates {
  public:
   explicit FloorRates(const Eigen::Vector2d& middle);
@@ -76,6 +76,7 @@ struct UnseenModel {
   ObjectId measured = kNoObject;  ///< the faces of measured voxels
   ObjectId background = kNoObject;
   double voxel_m = 0;
+  std::optional<double> floor_z_m;
   double half_band_1m = 0;       ///< half of a measured surface's thickness at a depth of 1 m
   bool nothing_unknown = false;  ///< no ray is ever stopped by something unknown
   bool ideal = false;            ///< the sensor measures whatever it has in sight

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 
 #include "vantage/raycore/export.hpp"
 #include "vantage/raycore/image.hpp"
@@ -18,7 +19,12 @@ VANTAGE_API void write_png(const std::filesystem::path& path, const RawDepthImag
 
 /// Reads a 16-bit grey PNG, as depth is stored.
 /// @throws Error bad_input if the file is missing, no PNG, truncated, corrupt, of another bit depth
-/// or colour type (8-bit depth is never scaled up), or above 16384 pixels along a side.
-VANTAGE_API RawDepthImage read_png_counts(const std::filesystem::path& path);
+/// or colour type (8-bit depth is never scaled up), or larger than 16384 pixels along a side, 2^26
+/// in all or 256 MiB.
+/// @param accept gets the size that the header states, before memory is taken for the pixels; it
+/// throws where that is not the size that is expected.
+VANTAGE_API RawDepthImage
+read_png_counts(const std::filesystem::path& path,
+                const std::function<void(int width, int height)>& accept = {});
 
 }  // namespace vantage

@@ -1,0 +1,62 @@
+#include "options/unused_options.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "process/usage_error.hpp"
+
+namespace vantage {
+namespace {
+
+bool has(const nlohmann::json& given, const char* group, const char* key) {
+  return given.contains(group) && given[group].contains(key);
+}
+
+void check_mesh(const nlohmann::json& given, const ViewOptions& views) {
+  const bool mesh = views.method == MeshMethod::kName;
+  refuse_unused(has(given, "mesh", "weight"), mesh, "--mesh-weight", "--method mesh");
+  MeshMethod described;
+  for (const Field& field : fields_of(described).fields) {
+    refuse_unused(has(given, "mesh", field.key.c_str()), mesh, field.option, "--method mesh");
+  }
+}
+
+void check_power(const nlohmann::json& given, const ViewOptions& views) {
+  const bool by_depth =
+      views.method == ShadowMethod::kName ||
+      (views.method == MeshMethod::kName && views.mesh_method().weight == MeshWeight::depth);
+  refuse_unused(given.contains("depth_power"), by_depth, "--depth-power",
+                views.method == MeshMethod::kName ? "--mesh-weight depth"
+                                                  : "--method shadow or --method mesh");
+}
+
+}  // namespace
+
+void refuse_unused(bool given, bool used, const std::string& option, const std::string& needs) {
+  if (!given || used) return;
+  throw UsageError(
+      fmt::format("{}: does nothing without {}; give both, or leave it out", option, needs));
+}
+
+void refuse_unused_fields(const nlohmann::json& given, const ViewOptions& views,
+                          const VolumeOptions& volume) {
+  check_mesh(given, views);
+  check_power(given, views);
+  refuse_unused(given.contains("value"), views.method == VoxelMethod::kName, "--value",
+                "--method voxel");
+  refuse_unused(has(given, "servo", "image_width"), views.servo.iterations > 0, "--servo-width",
+                "--servo N");
+  refuse_unused(has(given, "travel", "from_m"), views.travel_weight_per_m > 0, "--from",
+                "--travel-weight W above 0");
+  refuse_unused(has(given, "travel", "weight_per_m"), views.from_m.has_value(), "--travel-weight",
+                "--from X Y Z");
+  for (const auto& [key, option] : {std::pair("least_gain_m3", "--least-gain"),
+                                    std::pair("least_gain_share", "--least-gain-share")}) {
+    refuse_unused(has(given, "views", key), views.views.most > 1, option, "--views N of 2 or more");
+  }
+  refuse_unused(has(given, "volume", "filter_m"), volume.filter != FalseShadowFilter::off,
+                "--filter-edge", "--filter on or auto");
+}
+
+}  // namespace vantage
