@@ -72,7 +72,7 @@ ExitCode import_dataset(const ImportOptions& options) {
     record = write_imported(dataset, options.choice, options.folder, stop);
   }
   for (const std::string& warning : dataset.warnings) spdlog::warn("{}", warning);
-  print_text(options.json ? record.dump(1) + "\n" : summary_of_import(record, options.folder));
+  print_result(options.json, record, [&] { return summary_of_import(record, options.folder); });
   return ExitCode::ok;
 }
 

@@ -56,7 +56,7 @@ ExitCode validate(const ValidateCommand& command) {
     return load_plan_input(command.plan, stop);
   });
   if (stop.stop_requested()) return ExitCode::cancelled;
-  print_text(command.json ? json_of(input).dump(1) + "\n" : text_of(input));
+  print_result(command.json, json_of(input), [&] { return text_of(input); });
   return input.warnings.empty() ? ExitCode::ok : ExitCode::bad_input;
 }
 
