@@ -10,6 +10,7 @@
 
 #include "cli/run_time.hpp"
 #include "reconstruct/calibration_list.hpp"
+#include "reconstruct/missing_markers.hpp"
 #include "vantage/raycore/error.hpp"
 #include "vantage/reconstruction/calibration.hpp"
 #include "vantage/reconstruction/color_image.hpp"
@@ -85,6 +86,22 @@ void place(const BopImage& image, const std::vector<ObjectFeature>& board, Camer
   view.covariance = location.pose->covariance;
 }
 
+/// Adds to the reasons of cameras that see nothing of the board what their pictures show instead.
+/// Two pictures tell enough.
+void explain_missing_markers(const BopScene& scene, const Workcell& workcell,
+                             const StopToken& stop, ObservedScene& observed) {
+  const std::vector<std::string> dictionaries = dictionaries_of(workcell);
+  int left = 2;
+  for (std::size_t i = 0; i < scene.images.size() && !dictionaries.empty(); ++i) {
+    const bool located_by_board = !observed.locations[i].reason.empty();
+    if (!located_by_board || !observed.board[i].empty() || scene.images[i].color.empty()) continue;
+    if (left-- == 0 || stop.stop_requested()) return;
+    const std::string hint =
+        missing_markers_hint(read_color(scene.images[i].color), dictionaries);
+    if (!hint.empty()) observed.locations[i].reason += "; " + hint;
+  }
+}
+
 }  // namespace
 
 CameraSource camera_source_of(const std::string& name) {
@@ -148,6 +165,7 @@ ObservedScene observe(const BopScene& scene, const Workcell& workcell,
     place(scene.images[i], board, options.cameras, options.locate, observed.board[i],
           observed.views[i], observed.locations[i]);
   });
+  if (options.detect_markers) explain_missing_markers(scene, workcell, stop, observed);
   observed.locate_s = seconds_since(start);
   return observed;
 }

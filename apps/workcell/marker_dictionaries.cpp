@@ -12,23 +12,37 @@ int size_of(const std::string& dictionary) {
   return family == dictionary ? 0 : std::stoi(dictionary.substr(family.size() + 1));
 }
 
+/// The largest dictionary of each family, with its size.
+using Families = std::map<std::string, std::pair<int, std::string>>;
+
+void add_dictionary(const std::string& dictionary, Families& families) {
+  auto& largest = families[marker_family(dictionary)];
+  largest = std::max(largest, {size_of(dictionary), dictionary});
+}
+
+std::vector<std::string> largest_of(const Families& families) {
+  std::vector<std::string> names;
+  for (const auto& [family, largest] : families) names.push_back(largest.second);
+  return names;
+}
+
 }  // namespace
 
 std::vector<std::string> dictionaries_of(const Workcell& workcell) {
-  std::map<std::string, std::pair<int, std::string>> by_family;
-  const auto add = [&](const Marker& marker) {
-    auto& largest = by_family[marker_family(marker.dictionary)];
-    largest = std::max(largest, {size_of(marker.dictionary), marker.dictionary});
-  };
+  Families by_family;
   for (const TypePtr& type : workcell.knowledge->types()) {
-    for (const Marker& marker : type->markers()) add(marker);
+    for (const Marker& marker : type->markers()) add_dictionary(marker.dictionary, by_family);
   }
   if (workcell.board) {
-    for (const Marker& marker : workcell.board->markers) add(marker);
+    for (const Marker& marker : workcell.board->markers) add_dictionary(marker.dictionary, by_family);
   }
-  std::vector<std::string> names;
-  for (const auto& [family, largest] : by_family) names.push_back(largest.second);
-  return names;
+  return largest_of(by_family);
+}
+
+std::vector<std::string> largest_dictionaries() {
+  Families by_family;
+  for (const std::string& name : marker_dictionaries()) add_dictionary(name, by_family);
+  return largest_of(by_family);
 }
 
 }  // namespace vantage

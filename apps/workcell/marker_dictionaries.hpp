@@ -11,4 +11,7 @@ namespace vantage {
 /// family the largest, which has the markers of the others.
 std::vector<std::string> dictionaries_of(const Workcell& workcell);
 
+/// All that OpenCV has: of each family the largest.
+std::vector<std::string> largest_dictionaries();
+
 }  // namespace vantage
