@@ -2,8 +2,13 @@
 
 #include <doctest/doctest.h>
 #include <sys/wait.h>
+#include <unistd.h>
 
+#include <chrono>
+#include <csignal>
 #include <cstdlib>
+#include <fstream>
+#include <thread>
 
 #include "vantage/raycore/advanced/scene_builder.hpp"
 #include "vantage/raycore/image_io.hpp"
@@ -18,6 +23,47 @@ CommandResult run_vantage(const std::string& arguments, const std::string& prefi
                               (folder / "out").string() + "' 2>'" + (folder / "err").string() +
                               "' </dev/null";
   const int status = std::system(command.c_str());
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_text(folder / "out"),
+          read_text(folder / "err")};
+}
+
+namespace {
+
+/// Whether a process has a handler for Ctrl-C: bit 1 of the signals that it catches.
+bool catches_interrupts(pid_t process) {
+  std::ifstream status("/proc/" + std::to_string(process) + "/status");
+  for (std::string line; std::getline(status, line);) {
+    if (!line.starts_with("SigCgt:")) continue;
+    return (std::stoull(line.substr(7), nullptr, 16) >> (SIGINT - 1) & 1) != 0;
+  }
+  return false;
+}
+
+pid_t start_in_shell(const std::string& command) {
+  const pid_t process = fork();
+  if (process == 0) {
+    execl("/bin/sh", "sh", "-c", command.c_str(), nullptr);
+    _exit(127);
+  }
+  return process;
+}
+
+}  // namespace
+
+CommandResult interrupt_vantage(const std::string& arguments, double after_s) {
+  constexpr int kPolls = 6000;
+  constexpr auto kPoll = std::chrono::milliseconds(20);
+  const TemporaryFolder folder;
+  const pid_t process =
+      start_in_shell("exec '" VANTAGE_COMMAND "' " + arguments + " >'" + (folder / "out").string() +
+                     "' 2>'" + (folder / "err").string() + "' </dev/null");
+  for (int i = 0; i < kPolls && !catches_interrupts(process); ++i) {
+    std::this_thread::sleep_for(kPoll);
+  }
+  std::this_thread::sleep_for(std::chrono::duration<double>(after_s));
+  kill(process, SIGINT);
+  int status = 0;
+  waitpid(process, &status, 0);
   return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_text(folder / "out"),
           read_text(folder / "err")};
 }

@@ -19,6 +19,10 @@ struct CommandResult {
 /// "timeout -s INT 1".
 CommandResult run_vantage(const std::string& arguments, const std::string& prefix = "");
 
+/// The same, with a Ctrl-C some time after the command is ready for it: how long it takes to load
+/// depends on what else the machine does.
+CommandResult interrupt_vantage(const std::string& arguments, double after_s);
+
 /// A path as an argument of `run_vantage`, with a blank before it.
 std::string quoted(const std::filesystem::path& path);
 

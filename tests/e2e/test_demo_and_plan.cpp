@@ -208,10 +208,10 @@ TEST_CASE("a deadline gives what is there by then, and exit code 5") {
 TEST_CASE("Ctrl-C gives exit code 130 and the partial plan") {
   const test::TemporaryFolder folder;
   const std::string out = (folder / "out").string();
-  const auto result = run_vantage(
+  const auto result = test::interrupt_vantage(
       "plan '" + test::write_scene(folder).string() +
           "' --work-area -0.5 -0.5 0.01 0.5 0.5 0.5 --voxel-size 0.002 -o '" + out + "'",
-      "timeout --foreground --preserve-status -s INT 2");
+      1);
   CHECK(result.exit_code == 130);
   const bool before_any = result.out.find("stopped before") == 0;
   CHECK((before_any || result.out.find("\npartial ") != std::string::npos));

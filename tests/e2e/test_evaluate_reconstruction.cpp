@@ -18,11 +18,13 @@ using test::quoted;
 using test::run_vantage;
 namespace fs = std::filesystem;
 
-test::CommandResult evaluate(const fs::path& data, const std::string& options,
-                             const std::string& prefix = "") {
-  return run_vantage("evaluate reconstruction" + quoted(data) + " --workcell" +
-                         quoted(data / "workcell.yaml") + " " + options,
-                     prefix);
+std::string evaluation(const fs::path& data, const std::string& options) {
+  return "evaluate reconstruction" + quoted(data) + " --workcell" +
+         quoted(data / "workcell.yaml") + " " + options;
+}
+
+test::CommandResult evaluate(const fs::path& data, const std::string& options) {
+  return run_vantage(evaluation(data, options));
 }
 
 /// What a detector of whole poses writes of an object of scene_gt.json, shifted in the camera's
@@ -174,8 +176,8 @@ TEST_CASE("Ctrl-C ends an evaluation with 130, and writes nothing") {
   const test::TemporaryFolder folder;
   const fs::path data = folder / "data";
   make_dataset("castle", data);
-  const auto result = evaluate(data, "--trials 1000 --drop 0.1 -o" + quoted(folder / "out"),
-                               "timeout --foreground --preserve-status -s INT 3");
+  const auto result = test::interrupt_vantage(
+      evaluation(data, "--trials 1000 --drop 0.1 -o" + quoted(folder / "out")), 1);
   CHECK(result.exit_code == 130);
   CHECK(result.out.empty());
   CHECK_FALSE(fs::exists(folder / "out"));

@@ -122,10 +122,10 @@ TEST_CASE("Ctrl-C ends a replay with 130, and what is finished is written") {
   const auto kitchen = test::recording("kitchen");
   if (!kitchen) return;
   const test::TemporaryFolder folder;
-  const auto result =
-      run_vantage("evaluate replay" + quoted(*kitchen) + kTable +
-                      " --voxel-size 0.01 --pairs 1000 --methods voxel -o" + quoted(folder / "out"),
-                  "timeout --foreground --preserve-status -s INT 3");
+  const auto result = test::interrupt_vantage(
+      "evaluate replay" + quoted(*kitchen) + kTable +
+          " --voxel-size 0.01 --pairs 1000 --methods voxel -o" + quoted(folder / "out"),
+      8);
   CHECK(result.exit_code == 130);
   CHECK(result.out.find("Means over") != std::string::npos);
   const auto report = nlohmann::json::parse(test::read_text(folder / "out/replay.json"));
