@@ -28,7 +28,7 @@ const json& of_method(const json& list, const std::string& method) {
 TEST_CASE("evaluate planning: tables, planning.json, charts and a page") {
   const test::TemporaryFolder folder;
   const auto result =
-      test::interrupt_vantage("evaluate planning" + quoted_workcell("wall", ":front") +
+      run_vantage("evaluate planning" + quoted_workcell("wall", ":front") +
                   quoted_workcell("foreign_objects", "+ideal") +
                   " --candidates production --methods shadowD6 --servo 2 --voxel-size 0.02"
                   " --no-pictures -o" +
@@ -106,8 +106,10 @@ TEST_CASE("evaluate planning refuses what it cannot evaluate, and writes nothing
 
 TEST_CASE("Ctrl-C before the first scene is evaluated ends it with 130, and writes nothing") {
   const test::TemporaryFolder folder;
-  const auto result = run_vantage("evaluate planning" + quoted_workcell("wall", ":front") +
-                                      " --repeat 1000 -o" + quoted(folder / "out"), 0.5);
+  const auto result = test::interrupt_vantage(
+      "evaluate planning" + quoted_workcell("wall", ":front") + " --repeat 1000 -o" +
+          quoted(folder / "out"),
+      0.5);
   CHECK(result.exit_code == 130);
   CHECK(result.out.empty());
   CHECK_FALSE(fs::exists(folder / "out"));
