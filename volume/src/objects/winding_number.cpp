@@ -34,6 +34,36 @@ double half_solid_angle(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
                     la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
 }
 
+/// The products of three coordinates that a cubic form is made of, in the order of `Node::cubic`.
+Eigen::Matrix<double, 10, 1> cubic_products(const Eigen::Vector3d& r) {
+  const double x = r.x(), y = r.y(), z = r.z();
+  Eigen::Matrix<double, 10, 1> products;
+  products << x * x * x, x * x * y, x * x * z, x * y * y, x * y * z, x * z * z, y * y * y,
+      y * y * z, y * z * z, z * z * z;
+  return products;
+}
+
+/// The mean of offset times offset over a triangle, from a point.
+Eigen::Matrix3d second_moment(const Corners& c, const Eigen::Vector3d& from) {
+  const Eigen::Vector3d middle = (c[0] + c[1] + c[2]) / 3;
+  Eigen::Matrix3d moment = (middle - from) * (middle - from).transpose();
+  for (const Eigen::Vector3d& corner : c) {
+    moment += (corner - middle) * (corner - middle).transpose() / 12;
+  }
+  return moment;
+}
+
+/// The cubic form of area vector times a symmetric matrix.
+Eigen::Matrix<double, 10, 1> cubic_form(const Eigen::Vector3d& a, const Eigen::Matrix3d& m) {
+  Eigen::Matrix<double, 10, 1> form;
+  form << a.x() * m(0, 0), a.y() * m(0, 0) + 2 * a.x() * m(0, 1),
+      a.z() * m(0, 0) + 2 * a.x() * m(0, 2), a.x() * m(1, 1) + 2 * a.y() * m(0, 1),
+      2 * (a.x() * m(1, 2) + a.y() * m(0, 2) + a.z() * m(0, 1)),
+      a.x() * m(2, 2) + 2 * a.z() * m(0, 2), a.y() * m(1, 1), a.z() * m(1, 1) + 2 * a.y() * m(1, 2),
+      a.y() * m(2, 2) + 2 * a.z() * m(1, 2), a.z() * m(2, 2);
+  return form;
+}
+
 }  // namespace
 
 WindingNumber::WindingNumber(std::span<const Eigen::Vector3f> vertices,
@@ -65,10 +95,16 @@ WindingNumber::Node WindingNumber::summed(std::span<const std::uint32_t> order,
   node.centre =
       weight > 0 ? Eigen::Vector3d(node.centre / weight) : corners_of(triangles[order[0]], v)[0];
   node.moment.setZero();
+  node.contraction.setZero();
+  node.cubic.setZero();
   for (const std::uint32_t t : order) {
     const Corners c = corners_of(triangles[t], v);
     const Eigen::Vector3d from_centre = (c[0] + c[1] + c[2]) / 3 - node.centre;
-    node.moment += 0.5 * from_centre * doubled_area(c).transpose();
+    const Eigen::Vector3d area = 0.5 * doubled_area(c);
+    const Eigen::Matrix3d second = second_moment(c, node.centre);
+    node.moment += from_centre * area.transpose();
+    node.contraction += 2 * second * area + second.trace() * area;
+    node.cubic += cubic_form(area, second);
     for (const Eigen::Vector3d& corner : c) {
       node.radius = std::max(node.radius, (corner - node.centre).norm());
     }
@@ -112,10 +148,12 @@ double WindingNumber::at(const Eigen::Vector3d& point) const {
     const Eigen::Vector3d r = node.centre - point;
     const double distance = r.norm();
     if (distance > kFar * node.radius) {
-      // Barill et al., eq. 13 to the first order of the Taylor series.
-      const double inverse = 1 / distance, cubed = inverse * inverse * inverse;
-      const double spread = node.moment.trace() - 3 * r.dot(node.moment * r) * inverse * inverse;
-      sum += 0.5 * cubed * (node.area.dot(r) + spread);
+      // Barill et al., section 3: the Taylor series of the solid angle to its second order.
+      const double inverse2 = 1 / (distance * distance), inverse3 = inverse2 / distance;
+      const double first = node.moment.trace() - 3 * r.dot(node.moment * r) * inverse2;
+      const double second = 7.5 * node.cubic.dot(cubic_products(r)) * inverse2 * inverse2 -
+                            1.5 * node.contraction.dot(r) * inverse2;
+      sum += 0.5 * inverse3 * (node.area.dot(r) + first + second);
       i = node.skip;
     } else if (node.leaf) {
       for (std::uint32_t t = node.first; t < node.last; ++t) {

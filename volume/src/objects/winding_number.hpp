@@ -13,8 +13,8 @@ namespace vantage::volume::detail {
 /// using generalized winding numbers", 2013): 1 inside a closed mesh that looks outwards, 0
 /// outside, and something between where the mesh has holes. Triangles far from a point are taken
 /// together (Barill et al., "Fast winding numbers for soups and clouds", 2018): their area vectors,
-/// and how those are spread, in place of their solid angles. Off by less than 0.01. Immutable;
-/// thread-safe.
+/// and how those are spread to the second order, in place of their solid angles. Off by less than
+/// 0.01. Immutable; thread-safe.
 class WindingNumber {
  public:
   WindingNumber(std::span<const Eigen::Vector3f> vertices, std::span<const Triangle> triangles);
@@ -24,12 +24,15 @@ class WindingNumber {
  private:
   /// A box of triangles; its children follow it, or it is a leaf.
   struct Node {
-    Eigen::Vector3d centre;     ///< weighted by area
-    double radius;              ///< of the ball around it that holds all corners
-    Eigen::Vector3d area;       ///< the sum of the area vectors
-    Eigen::Matrix3d moment;     ///< the sum of (triangle's centre - centre) times area vector
-    std::uint32_t first, last;  ///< of `corners_`, in triangles
-    std::uint32_t skip;         ///< the node that comes after its children
+    Eigen::Vector3d centre;  ///< weighted by area
+    double radius;           ///< of the ball around it that holds all corners
+    Eigen::Vector3d area;    ///< the sum of the area vectors
+    Eigen::Matrix3d moment;  ///< the sum of (triangle's centre - centre) times area vector
+    /// The second moments, area vector times offset times offset: what of them counts.
+    Eigen::Vector3d contraction;
+    Eigen::Matrix<double, 10, 1> cubic;  ///< coefficients of xxx, xxy, xxz, xyy, xyz, xzz, yyy …
+    std::uint32_t first, last;           ///< of `corners_`, in triangles
+    std::uint32_t skip;                  ///< the node that comes after its children
     bool leaf;
   };
 

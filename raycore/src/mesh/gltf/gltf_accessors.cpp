@@ -8,7 +8,7 @@
 #include <string_view>
 
 #include "core/byte_order.hpp"
-#include "mesh/file_beside.hpp"
+#include "mesh/gltf/file_beside.hpp"
 #include "mesh/gltf/uri.hpp"
 #include "mesh/text_scanner.hpp"
 

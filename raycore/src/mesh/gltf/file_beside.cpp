@@ -1,4 +1,4 @@
-#include "mesh/file_beside.hpp"
+#include "mesh/gltf/file_beside.hpp"
 
 #include <fmt/format.h>
 
