@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 
 namespace vantage {
@@ -18,13 +19,16 @@ std::string key_path(const json& root, const std::string& pointer) {
   std::vector<std::string> tokens;
   for (; !rest.empty(); rest.pop_back()) tokens.push_back(rest.back());
   for (auto token = tokens.rbegin(); token != tokens.rend(); ++token) {
-    if (node != nullptr && node->is_array()) {
+    std::size_t index = 0;
+    const char* const end = token->data() + token->size();
+    const auto [stop, error] = std::from_chars(token->data(), end, index);
+    if (node != nullptr && node->is_array() && error == std::errc() && stop == end) {
       path += "[" + *token + "]";
-      const std::size_t index = std::stoul(*token);
       node = index < node->size() ? &(*node)[index] : nullptr;
     } else {
       path += (path.empty() ? "" : ".") + *token;
-      node = node != nullptr && node->contains(*token) ? &(*node)[*token] : nullptr;
+      node = node != nullptr && node->is_object() && node->contains(*token) ? &(*node)[*token]
+                                                                            : nullptr;
     }
   }
   return path;

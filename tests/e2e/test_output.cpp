@@ -15,8 +15,7 @@ namespace fs = std::filesystem;
 CommandResult shell(const TemporaryFolder& folder, const std::string& options,
                     const std::string& prefix, const std::string& suffix) {
   const std::string scene = test::quoted(folder / "scene");
-  return test::run_vantage("plan" + scene + test::kSceneArea + " --threads 2 " + options + suffix,
-                           prefix);
+  return test::run_vantage("plan" + scene + test::kSceneArea + " " + options + suffix, prefix);
 }
 
 void expect_lost(const CommandResult& result, std::string_view part) {

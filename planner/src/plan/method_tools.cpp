@@ -77,7 +77,8 @@ struct ToolMaker {
   }
 
   std::shared_ptr<const ExpectedScorer> gain() const {
-    return std::make_shared<const ExpectedScorer>(scene, world, request.volume, request.gain_options());
+    return std::make_shared<const ExpectedScorer>(scene, world, request.volume,
+                                                  request.gain_options());
   }
 
   /// For scorers that do not look at images of the shadow themselves.

@@ -78,6 +78,7 @@ TEST_CASE("a document without lines names the file and the key") {
   const Document document{"plan.json", json::parse(R"({"a": [1]})")};
   CHECK(document.place("/a/0") == "plan.json: a[0]");
   CHECK(document.place("") == "plan.json");
+  CHECK(document.place("/a/x/99999999999999999999") == "plan.json: a.x.99999999999999999999");
 }
 
 TEST_CASE("long values are cut off between characters") {

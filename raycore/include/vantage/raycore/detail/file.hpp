@@ -19,9 +19,9 @@ namespace vantage {
 VANTAGE_API std::vector<std::uint8_t> read_file(const std::filesystem::path& path,
                                                 std::size_t max_bytes = limits::kMaxFileBytes);
 
-/// Writes `bytes` beside `path`, has the disk keep them, and renames: the file is there whole, or as
-/// it was before, whatever happens to the process or the machine. Many may write the same path at
-/// once; the last one wins.
+/// Writes `bytes` beside `path`, has the disk keep them, and renames: the file is there whole, or
+/// as it was before, whatever happens to the process or the machine. Many may write the same path
+/// at once; the last one wins.
 /// @throws Error bad_input if the folder is missing or cannot be written, or if `path` is a folder
 /// or a device; out_of_resources if the disk is full.
 VANTAGE_API void write_file(const std::filesystem::path& path, std::string_view bytes);
