@@ -45,6 +45,13 @@ RawDepth decode_depth_tiff(std::span<const std::uint8_t> bytes, const std::strin
                                 header->bits, header->is_float ? ", floating point" : ""));
   }
   if (bytes.size() > (std::size_t(1) << 30)) throw bad_input(where, "has more than 1 GiB");
+  // OpenCV reads whole numbers of 32 bits only if they are called signed; their bits are the same.
+  std::vector<std::uint8_t> relabelled;
+  if (header->bits == 32 && header->unsigned_at > 0) {
+    relabelled.assign(bytes.begin(), bytes.end());
+    for (std::size_t i = 0; i < 2; ++i) relabelled[header->unsigned_at + i] *= 2;
+    bytes = relabelled;
+  }
   const cv::Mat pixels = decode_tiff(bytes);
   const bool fits = pixels.channels() == 1 && pixels.cols == int(header->width) &&
                     pixels.rows == int(header->height);

@@ -55,9 +55,10 @@ class TiffNumbers {
   bool little_;
 };
 
+constexpr std::uint32_t kSampleFormat = 339, kUnsigned = 1, kFloat = 3;
+
 void take_tag(std::uint32_t tag, std::uint32_t value, RasterHeader& header) {
-  constexpr std::uint32_t kWidth = 256, kHeight = 257, kBits = 258, kOrientation = 274,
-                          kSampleFormat = 339, kFloat = 3;
+  constexpr std::uint32_t kWidth = 256, kHeight = 257, kBits = 258, kOrientation = 274;
   if (tag == kWidth) header.width = value;
   if (tag == kHeight) header.height = value;
   if (tag == kBits) header.bits = int(std::min(value, 1000u));
@@ -82,7 +83,9 @@ std::optional<RasterHeader> tiff_header(RasterBytes bytes) {
     const auto tag = numbers.number(entry, 2);
     if (!tag) return std::nullopt;
     const auto value = numbers.value_at(entry);
-    if (value && taken.insert(*tag).second) take_tag(*tag, *value, header);
+    if (!value || !taken.insert(*tag).second) continue;
+    take_tag(*tag, *value, header);
+    if (*tag == kSampleFormat && *value == kUnsigned) header.unsigned_at = entry + 8;
   }
   return header;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -13,6 +14,8 @@ struct RasterHeader {
   int bits = 0;              ///< of a channel
   bool is_float = false;     ///< or whole numbers
   int exif_orientation = 1;  ///< 1 to 8: how EXIF data ask to turn the image; 1 is as it is stored
+  /// Of TIFF: where the file says that its numbers have no sign; 0 if it does not say so.
+  std::size_t unsigned_at = 0;
 };
 
 /// Tags of the first image of a TIFF file, or of EXIF data, which have the same form.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <opencv2/imgproc.hpp>
 #include <optional>
 #include <set>
@@ -22,8 +23,8 @@ using reconstruction::detail::kStrictOutlines;
 using reconstruction::detail::kUsualOutlines;
 using reconstruction::detail::OutlineOptions;
 
-constexpr int kSmallestImage = 16;         ///< pixels; nothing smaller shows a marker
-constexpr double kInvertedSupport = 0.75;  ///< white markers on black are rare: look twice
+constexpr int kSmallestImage = 16;        ///< pixels; nothing smaller shows a marker
+constexpr double kInvertedSupport = 0.8;  ///< white markers on black are rare: look twice
 
 /// One dictionary to look through.
 struct Family {
@@ -123,6 +124,30 @@ void leave_one_of_each(std::vector<Found>& all) {
   all = std::move(kept);
 }
 
+/// Leaves out of `some` what lies on or around one of `others`.
+void leave_out_overlaps(const std::vector<Found>& others, std::vector<Found>& some) {
+  std::erase_if(some, [&](const Found& found) {
+    return std::any_of(others.begin(), others.end(), [&](const Found& other) {
+      return (other.centre - found.centre).norm() < std::max(other.size_px, found.size_px);
+    });
+  });
+}
+
+/// The white paper around a black marker is a black frame in the negative, and may be read as
+/// another marker; so may, of a white marker, the black around it. Those of the kind that there is
+/// less of are taken for that. A single inverted one is none: what is printed so is printed so
+/// everywhere.
+void add_inverted(std::vector<Found> inverted, std::vector<Found>& all) {
+  constexpr std::size_t kFewestInverted = 2;
+  if (inverted.size() > all.size()) {
+    leave_out_overlaps(inverted, all);
+  } else {
+    leave_out_overlaps(all, inverted);
+  }
+  if (inverted.size() < kFewestInverted) return;
+  std::move(inverted.begin(), inverted.end(), std::back_inserter(all));
+}
+
 std::vector<Family> checked_families(const std::vector<std::string>& names) {
   const char* where = "dictionaries";
   if (names.empty()) throw bad_input(where, "there is none; name at least one, e.g. 4X4_50");
@@ -170,7 +195,7 @@ std::vector<Observation> ArucoDetector::detect(const ColorImage& image) const {
   if (image.width < kSmallestImage || image.height < kSmallestImage) return {};
   const cv::Mat1b grey = grey_of(image);
   const cv::Mat1f light = linear_light(grey);
-  std::vector<Found> all;
+  std::vector<Found> all, inverted;
   for (const Family& family : impl_->families) {
     find_markers(grey, light, lens, family, kStrictOutlines, 0, all);
     find_markers(grey, light, lens, family, kUsualOutlines, 0, all);
@@ -179,8 +204,10 @@ std::vector<Observation> ArucoDetector::detect(const ColorImage& image) const {
   const cv::Mat1b negative = 255 - grey;
   const cv::Mat1f negative_light = 1 - light;
   for (const Family& family : impl_->families) {
-    find_markers(negative, negative_light, lens, family, kUsualOutlines, kInvertedSupport, all);
+    find_markers(negative, negative_light, lens, family, kUsualOutlines, kInvertedSupport,
+                 inverted);
   }
+  add_inverted(std::move(inverted), all);
   const auto order = [](const Found& f) {
     return std::make_tuple(std::cref(f.observation.key), f.centre.x(), f.centre.y());
   };

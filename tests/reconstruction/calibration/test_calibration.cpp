@@ -100,7 +100,7 @@ TEST_CASE("what is missing, of the wrong size or no number is refused with its p
   expect_calibration_refused(camera("615., 0., 322.3, 0., 611., 238.1, 0., 0., 2."),
                              ": camera_matrix", {"expected [fx, 0, cx, 0, fy, cy, 0, 0, 1]"});
   expect_calibration_refused(camera("615., 0., .Nan, 0., 611., 238.1, 0., 0., 1."),
-                             ": camera_matrix", {"NaN", "finite"});
+                             ": camera_matrix", {"nan", "finite"});
   expect_calibration_refused(camera("-615., 0., 3., 0., 611., 238.1, 0., 0., 1."),
                              ": camera_matrix", {"-615"});
   expect_calibration_refused(
@@ -119,7 +119,7 @@ TEST_CASE("what is missing, of the wrong size or no number is refused with its p
   expect_calibration_refused(lens(4, "-2., 0., 0., 0."), ": distortion_coefficients",
                              {"folds over"});
   expect_calibration_refused(lens(4, ".Inf, 0., 0., 0."), ": distortion_coefficients",
-                             {".Inf", "finite"});
+                             {"inf", "finite"});
 }
 
 TEST_CASE("files that are no calibrations are refused, wherever they end") {

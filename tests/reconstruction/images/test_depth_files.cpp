@@ -60,14 +60,14 @@ std::shared_ptr<const DepthImage> depth_in(const std::string& ending, const std:
   return load_bop_scene(folder.path()).images.at(0).depth;
 }
 
-std::string exr(const char* channel, Imf::PixelType type) {
+std::string exr(const char* channel) {
   const TemporaryFolder folder;
   const std::string file = (folder / "a.exr").string();
   std::vector<float> metres(48, 2000);
   metres[0] = std::numeric_limits<float>::infinity();
   {
     Imf::Header header(8, 6);
-    header.channels().insert(channel, Imf::Channel(type));
+    header.channels().insert(channel, Imf::Channel(Imf::FLOAT));
     Imf::OutputFile out(file.c_str(), header);
     Imf::FrameBuffer frame;
     frame.insert(channel, Imf::Slice(Imf::FLOAT, reinterpret_cast<char*>(metres.data()), 4, 32));
@@ -103,11 +103,11 @@ TEST_CASE("depth is read from TIFF of 16 and 32 bits, OpenEXR and NumPy's arrays
   }
   for (const char* channel : {"Z", "Y", "R", "depth"}) {
     CAPTURE(channel);
-    const auto depth = depth_in(".exr", exr(channel, channel[0] == 'R' ? Imf::HALF : Imf::FLOAT));
+    const auto depth = depth_in(".exr", exr(channel));
     CHECK(depth->at(3, 4) == 1.0f);
     CHECK(std::isnan(depth->at(0, 0)));
   }
-  const std::string whole = exr("Z", Imf::FLOAT);
+  const std::string whole = exr("Z");
   for (std::size_t size = 0; size < whole.size(); size += 17) {
     CHECK_THROWS_AS(depth_in(".exr", whole.substr(0, size)), Error);
   }
@@ -138,7 +138,7 @@ TEST_CASE("depth files of another kind are refused by what they are") {
   refused(".npy", npy("<u2", "48", std::string(96, 'a')), {"(48)", "(height, width)"});
   refused(".npy", npy("<u2", "6, 9", std::string(96, 'a')), {"96 bytes", "expected 108"});
   refused(".npy", npy("<u2", "99999, 9", std::string(96, 'a')), {"9 x 99999", "16384"});
-  refused(".npy", npy("<f4", "6, 8", raw(std::vector<float>(48, -1.0f))), {"negative"});
+  refused(".npy", npy("<f4", "6, 8", raw(std::vector<float>(48, -1.0f))), {"expected 0 or more"});
   refused(".exr", "no image", {"OpenEXR cannot read it"});
 }
 

@@ -34,7 +34,8 @@ struct ArucoOptions {
 /// OpenCV's ArUco detector, with corners from a fit of the marker's whole pattern to the image.
 /// What turns out not to lie where its corners say is left out. `sigma_px` is what the fit tells:
 /// the root mean square over the four corners. Images are sRGB; another gamma, glow and ink that
-/// has run are compensated. Sorted by key, then from left to right, then from top to bottom.
+/// has run are compensated. White markers on black are found, too, where an image has two or more.
+/// Sorted by key, then from left to right, then from top to bottom.
 class VANTAGE_API ArucoDetector final : public Detector {
  public:
   /// @throws Error bad_input, "dictionaries" as the place, for a name that OpenCV does not have,
