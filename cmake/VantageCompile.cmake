@@ -44,6 +44,12 @@ if(VANTAGE_SANITIZE)
   target_link_options(vantage_options INTERFACE -fsanitize=${VANTAGE_SANITIZE})
 endif()
 
+# What turns a slip in memory into an end instead of an exploit.
+if(NOT VANTAGE_SANITIZE)
+  target_compile_options(vantage_options INTERFACE
+    -fstack-protector-strong -fstack-clash-protection
+    $<$<CONFIG:Release>:-U_FORTIFY_SOURCE> $<$<CONFIG:Release>:-D_FORTIFY_SOURCE=3>)
+endif()
 add_link_options(LINKER:-z,relro,-z,now,-z,noexecstack)
 
 # For what parses, prints and checks: it takes no time that better code would save.
