@@ -130,7 +130,7 @@ TEST_CASE("files that are no calibrations are refused, wherever they end") {
   };
   refused("", "empty");
   refused("\x89PNG\r\n", "");
-  refused("{\"camera_matrix\": 3}", "no OpenCV matrix: found 3");
+  refused("{\"camera_matrix\": 3}", "no image says it");
   refused("%YAML:1.0\n---\na: [ 1, 2\nb: }\n", "no valid YAML");
   refused("<?xml version=\"1.0\"?>\n<other>\n", "no valid XML");
   refused("<?xml version=\"1.0\"?>\n<other></other>\n", "its root is <other>");
