@@ -46,7 +46,8 @@ class YamlParser {
  public:
   YamlParser(std::string_view text, const std::string& name) : text_(text), name_(name) {
     if (yaml_parser_initialize(&parser_) == 0) throw std::bad_alloc();
-    yaml_parser_set_input_string(&parser_, reinterpret_cast<const unsigned char*>(text.data()),
+    const char* start = text.empty() ? "" : text.data();  // null ends the process
+    yaml_parser_set_input_string(&parser_, reinterpret_cast<const unsigned char*>(start),
                                  text.size());
   }
   ~YamlParser() { yaml_parser_delete(&parser_); }
