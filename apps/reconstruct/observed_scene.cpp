@@ -88,16 +88,15 @@ void place(const BopImage& image, const std::vector<ObjectFeature>& board, Camer
 
 /// Adds to the reasons of cameras that see nothing of the board what their pictures show instead.
 /// Two pictures tell enough.
-void explain_missing_markers(const BopScene& scene, const Workcell& workcell,
-                             const StopToken& stop, ObservedScene& observed) {
+void explain_missing_markers(const BopScene& scene, const Workcell& workcell, const StopToken& stop,
+                             ObservedScene& observed) {
   const std::vector<std::string> dictionaries = dictionaries_of(workcell);
   int left = 2;
   for (std::size_t i = 0; i < scene.images.size() && !dictionaries.empty(); ++i) {
     const bool located_by_board = !observed.locations[i].reason.empty();
     if (!located_by_board || !observed.board[i].empty() || scene.images[i].color.empty()) continue;
     if (left-- == 0 || stop.stop_requested()) return;
-    const std::string hint =
-        missing_markers_hint(read_color(scene.images[i].color), dictionaries);
+    const std::string hint = missing_markers_hint(read_color(scene.images[i].color), dictionaries);
     if (!hint.empty()) observed.locations[i].reason += "; " + hint;
   }
 }

@@ -21,8 +21,7 @@ std::vector<std::string> camera_warnings(const BopScene& scene, const ObservedSc
   for (std::size_t i = 0; i < scene.images.size(); ++i) {
     const CameraLocation& location = observed.locations[i];
     if (!observed.views[i].T_world_cam) {
-      warnings.push_back(
-          fmt::format("skipping image {}: {}", scene.images[i].id, location.reason));
+      warnings.push_back(fmt::format("skipping image {}: {}", scene.images[i].id, location.reason));
     }
     if (!location.warning.empty()) {
       warnings.push_back(fmt::format("image {}: {}", scene.images[i].id, location.warning));

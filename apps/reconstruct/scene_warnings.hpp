@@ -8,7 +8,8 @@
 
 namespace vantage {
 
-/// What is odd about how cameras were located: those that were not, and what contradicts the others.
+/// What is odd about how cameras were located: those that were not, and what contradicts the
+/// others.
 std::vector<std::string> camera_warnings(const BopScene& scene, const ObservedScene& observed);
 
 /// What is odd about objects that were found. `objects` have their names, in the order of the

@@ -129,8 +129,8 @@ std::string camera_line(const Json& camera) {
   const int seen = camera["board_markers_seen"].get<int>();
   const std::string markers =
       agreeing == seen ? std::to_string(seen) : fmt::format("{} of {}", agreeing, seen);
-  return line + fmt::format(", by {} markers, {:.3f} px rms\n", markers,
-                            camera["rms_px"].get<double>());
+  return line +
+         fmt::format(", by {} markers, {:.3f} px rms\n", markers, camera["rms_px"].get<double>());
 }
 
 std::string object_line(const Json& object) {

@@ -26,14 +26,12 @@ struct ValidateCommand {
 std::string text_of(const PlanInput& input) {
   const auto depths = std::ranges::count_if(
       input.world.cameras, [](const DepthCamera& camera) { return camera.depth != nullptr; });
-  std::string text =
-      fmt::format("cameras    {}, {} of them with depth\nobjects    {} ({}), {} static structures\n",
-                  input.world.cameras.size(), depths, input.world.objects.size(),
-                  input.record.config["objects"].get<std::string>(),
-                  input.world.static_structures.size());
-  text += input.warnings.empty()
-              ? "findings   none\n"
-              : fmt::format("findings   {}\n", input.warnings.size());
+  std::string text = fmt::format(
+      "cameras    {}, {} of them with depth\nobjects    {} ({}), {} static structures\n",
+      input.world.cameras.size(), depths, input.world.objects.size(),
+      input.record.config["objects"].get<std::string>(), input.world.static_structures.size());
+  text += input.warnings.empty() ? "findings   none\n"
+                                 : fmt::format("findings   {}\n", input.warnings.size());
   for (const std::string& finding : input.warnings) text += "  " + finding + "\n";
   return text;
 }

@@ -34,7 +34,8 @@ std::vector<std::string> dictionaries_of(const Workcell& workcell) {
     for (const Marker& marker : type->markers()) add_dictionary(marker.dictionary, by_family);
   }
   if (workcell.board) {
-    for (const Marker& marker : workcell.board->markers) add_dictionary(marker.dictionary, by_family);
+    for (const Marker& marker : workcell.board->markers)
+      add_dictionary(marker.dictionary, by_family);
   }
   return largest_of(by_family);
 }

@@ -106,10 +106,10 @@ TEST_CASE("evaluate planning refuses what it cannot evaluate, and writes nothing
 
 TEST_CASE("Ctrl-C before the first scene is evaluated ends it with 130, and writes nothing") {
   const test::TemporaryFolder folder;
-  const auto result = test::interrupt_vantage(
-      "evaluate planning" + quoted_workcell("wall", ":front") + " --repeat 1000 -o" +
-          quoted(folder / "out"),
-      0.5);
+  const auto result =
+      test::interrupt_vantage("evaluate planning" + quoted_workcell("wall", ":front") +
+                                  " --repeat 1000 -o" + quoted(folder / "out"),
+                              0.5);
   CHECK(result.exit_code == 130);
   CHECK(result.out.empty());
   CHECK_FALSE(fs::exists(folder / "out"));

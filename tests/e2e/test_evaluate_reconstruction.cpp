@@ -19,8 +19,8 @@ using test::run_vantage;
 namespace fs = std::filesystem;
 
 std::string evaluation(const fs::path& data, const std::string& options) {
-  return "evaluate reconstruction" + quoted(data) + " --workcell" +
-         quoted(data / "workcell.yaml") + " " + options;
+  return "evaluate reconstruction" + quoted(data) + " --workcell" + quoted(data / "workcell.yaml") +
+         " " + options;
 }
 
 test::CommandResult evaluate(const fs::path& data, const std::string& options) {

@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "vantage/raycore/detail/mesh_measures.hpp"
 #include "vantage/raycore/error.hpp"
 
 namespace vantage::reconstruction::detail {
@@ -74,8 +75,7 @@ std::string feature_place(const ObjectType& type, std::size_t index) {
 /// A marker is printed on a face of the object: it cannot stick out.
 void check_fits(const ObjectType& type, const Marker& marker, const std::string& place) {
   constexpr double kRoom_m = 0.001, kRoom = 0.02;  // a sticker, a rounded mesh
-  Eigen::AlignedBox3d bounds;
-  for (const Eigen::Vector3f& vertex : type.mesh->vertices()) bounds.extend(vertex.cast<double>());
+  const Eigen::AlignedBox3d bounds = raycore::detail::bounds_of(*type.mesh);
   if (bounds.isEmpty() || !marker.T_object_marker.translation().allFinite()) return;
   const double room = kRoom_m + kRoom * bounds.diagonal().norm();
   const Eigen::AlignedBox3d wide(bounds.min() - Eigen::Vector3d::Constant(room),

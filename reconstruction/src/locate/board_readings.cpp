@@ -24,10 +24,9 @@ std::vector<Points> points_of(std::span<const ObjectFeature> board) {
 }
 
 /// Every feature's centre moved by `place`, its points around it by `shape`.
-std::vector<Points> remapped(
-    std::vector<Points> all,
-    const std::function<Eigen::Vector3d(const Eigen::Vector3d&)>& place,
-    const std::function<Eigen::Vector3d(const Eigen::Vector3d&)>& shape) {
+std::vector<Points> remapped(std::vector<Points> all,
+                             const std::function<Eigen::Vector3d(const Eigen::Vector3d&)>& place,
+                             const std::function<Eigen::Vector3d(const Eigen::Vector3d&)>& shape) {
   for (Points& points : all) {
     if (points.empty()) continue;
     const Eigen::Vector3d centre = centre_of(points);
@@ -108,7 +107,9 @@ bool is_off_centre(const Intrinsics& k) {
 ReadingFamily marker_size(const Lens& lens, const std::vector<Points>& board) {
   return {[=](double factor) -> std::optional<BoardReading> {
             const auto same = [](const Eigen::Vector3d& p) { return p; };
-            const auto scaled = [=](const Eigen::Vector3d& p) { return Eigen::Vector3d(factor * p); };
+            const auto scaled = [=](const Eigen::Vector3d& p) {
+              return Eigen::Vector3d(factor * p);
+            };
             return BoardReading{
                 fmt::format("the board's markers are {:.3f} times as large as size_m says, for the "
                             "distances between them",
@@ -119,7 +120,9 @@ ReadingFamily marker_size(const Lens& lens, const std::vector<Points>& board) {
 }
 
 ReadingFamily fixed(std::string cause, const Lens& lens, std::vector<Points> points) {
-  return {[=](double) -> std::optional<BoardReading> { return BoardReading{cause, lens, points}; },
+  return {[=](double) -> std::optional<BoardReading> {
+            return BoardReading{cause, lens, points};
+          },
           {1.0}};
 }
 
@@ -128,11 +131,14 @@ void add_layouts(const Lens& lens, const std::vector<Points>& board,
   using V = Eigen::Vector3d;
   const auto same = [](const V& p) { return p; };
   families.push_back(fixed("the y axis of the markers' positions points the other way", lens,
-                           remapped(board, [](const V& p) { return V(p.x(), -p.y(), p.z()); }, same)));
+                           remapped(
+                               board, [](const V& p) { return V(p.x(), -p.y(), p.z()); }, same)));
   families.push_back(fixed("the x axis of the markers' positions points the other way", lens,
-                           remapped(board, [](const V& p) { return V(-p.x(), p.y(), p.z()); }, same)));
+                           remapped(
+                               board, [](const V& p) { return V(-p.x(), p.y(), p.z()); }, same)));
   families.push_back(fixed("x and y of the markers' positions are exchanged", lens,
-                           remapped(board, [](const V& p) { return V(p.y(), p.x(), p.z()); }, same)));
+                           remapped(
+                               board, [](const V& p) { return V(p.y(), p.x(), p.z()); }, same)));
 }
 
 /// Markers that are printed, or whose corners are listed, with a turn or from the other side.
@@ -143,15 +149,16 @@ void add_corner_orders(const Lens& lens, const std::vector<Points>& board,
     for (Points& points : turned) {
       if (points.size() == 4) std::rotate(points.begin(), points.begin() + quarters, points.end());
     }
-    families.push_back(fixed(
-        fmt::format("each marker of the board is turned by {} degrees (turn)", 90 * quarters), lens,
-        std::move(turned)));
+    families.push_back(
+        fixed(fmt::format("each marker of the board is turned by {} degrees (turn)", 90 * quarters),
+              lens, std::move(turned)));
   }
   std::vector<Points> mirrored = board;
   for (Points& points : mirrored) {
     if (points.size() == 4) std::swap(points[0], points[1]), std::swap(points[3], points[2]);
   }
-  families.push_back(fixed("the markers' corners are in mirrored order", lens, std::move(mirrored)));
+  families.push_back(
+      fixed("the markers' corners are in mirrored order", lens, std::move(mirrored)));
 }
 
 void add_turned_pictures(const Lens& lens, const std::vector<Points>& board,
@@ -163,9 +170,9 @@ void add_turned_pictures(const Lens& lens, const std::vector<Points>& board,
     if (swapped) std::swap(turned.fx, turned.fy);
     const auto other = lens_with(lens, turned);
     if (!other) return;
-    families.push_back(fixed(
-        fmt::format("the picture is turned by {} degrees against the intrinsics", how), *other,
-        board));
+    families.push_back(
+        fixed(fmt::format("the picture is turned by {} degrees against the intrinsics", how),
+              *other, board));
   };
   add(k.cy, k.width - 1 - k.cx, true, "90");
   add(k.height - 1 - k.cy, k.cx, true, "90");
@@ -182,9 +189,10 @@ std::vector<ReadingFamily> reading_families(const Lens& lens,
   add_layouts(lens, points, families);
   add_corner_orders(lens, points, families);
   if (auto parity = other_parity(board)) {
-    families.push_back(fixed("the markers of the checkerboard are on the squares of the other "
-                             "colour (its parity; OpenCV before 4.6 printed it so: legacy)",
-                             lens, *std::move(parity)));
+    families.push_back(
+        fixed("the markers of the checkerboard are on the squares of the other "
+              "colour (its parity; OpenCV before 4.6 printed it so: legacy)",
+              lens, *std::move(parity)));
   }
   families.push_back(focal_factor(lens, points));
   families.push_back(resolution(lens, points));

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "locate/board_readings.hpp"
+#include "locate/golden_section.hpp"
 
 namespace vantage::reconstruction::detail {
 namespace {
@@ -45,29 +46,16 @@ std::optional<BoardFit> fit_of(const BoardReading& reading, std::span<const Boar
 /// The factor between its neighbours that leaves the least chi-square over the same pairs.
 double refined_factor(const Promise& promise, const BoardFit& start,
                       std::span<const BoardPair> pairs) {
-  constexpr double kInvGolden = 0.6180339887498949;
   constexpr int kSteps = 28;
   if (promise.family->factors.size() < 2) return promise.factor;
-  const double step = kFactorStep;
   const auto cost = [&](double log_factor) {
     const auto reading = promise.family->at(std::exp(log_factor));
     if (!reading) return HUGE_VAL;
     const auto fit = fit_pairs(pairs_of(*reading, pairs), start.pairs, start.T_cam_world(), 0);
     return fit ? fit->chi_square : HUGE_VAL;
   };
-  double low = std::log(promise.factor / step), high = std::log(promise.factor * step);
-  double a = high - kInvGolden * (high - low), b = low + kInvGolden * (high - low);
-  double cost_a = cost(a), cost_b = cost(b);
-  for (int i = 0; i < kSteps; ++i) {
-    if (cost_a < cost_b) {
-      high = b, b = a, cost_b = cost_a;
-      a = high - kInvGolden * (high - low), cost_a = cost(a);
-    } else {
-      low = a, a = b, cost_a = cost_b;
-      b = low + kInvGolden * (high - low), cost_b = cost(b);
-    }
-  }
-  return std::exp(0.5 * (low + high));
+  return std::exp(least_by_golden_section(std::log(promise.factor / kFactorStep),
+                                          std::log(promise.factor * kFactorStep), kSteps, cost));
 }
 
 std::optional<Explanation> followed(const Promise& promise, std::span<const BoardPair> pairs,
@@ -75,8 +63,8 @@ std::optional<Explanation> followed(const Promise& promise, std::span<const Boar
   auto reading = promise.family->at(promise.factor);
   if (!reading) return std::nullopt;
   // Off by half a step, many a marker is beyond the usual tolerance.
-  auto fit = fit_of(*reading, pairs, promise.family->factors.size() < 2 ? inlier_px
-                                                                        : kRough / 2 * inlier_px);
+  auto fit = fit_of(*reading, pairs,
+                    promise.family->factors.size() < 2 ? inlier_px : kRough / 2 * inlier_px);
   if (!fit) return std::nullopt;
   if (promise.family->factors.size() > 1) {
     reading = promise.family->at(refined_factor(promise, *fit, pairs));

@@ -11,8 +11,8 @@ namespace vantage::reconstruction::detail {
 
 /// What explains that markers of the board contradict each other.
 struct Explanation {
-  std::string cause;  ///< a clause
-  Pose T_cam_world;   ///< by it
+  std::string cause;        ///< a clause
+  Pose T_cam_world;         ///< by it
   std::size_t markers = 0;  ///< that agree with it
   double chi_square = 0;
   bool exact = false;  ///< a plain mistake, not a length that was fitted

@@ -178,8 +178,8 @@ void doubt(const Lens& lens, const SeenBoard& seen, const BoardFit& best,
     location.warning = fmt::format(
         "{} of the {} markers of the board that are seen contradict the pose ({}): {}",
         against.size(), location.markers_seen, fmt::join(against, ", "),
-        explanation ? fmt::format("all but {} agree if {}", location.markers_seen - explanation->markers,
-                                  explanation->cause)
+        explanation ? fmt::format("all but {} agree if {}",
+                                  location.markers_seen - explanation->markers, explanation->cause)
                     : std::string("they were moved, read wrongly, or stand elsewhere in the "
                                   "workcell"));
     if (explanation) {
@@ -228,9 +228,9 @@ CameraLocation locate_camera(const Lens& lens, std::span<const Observation> obse
         lens, seen.pairs, board, best ? best->pairs.size() : 1, location.markers_seen,
         options.inlier_px);
   }
-  const std::string hint = explanation ? fmt::format("; {} agree if {}", explanation->markers,
-                                                     explanation->cause)
-                                       : std::string();
+  const std::string hint =
+      explanation ? fmt::format("; {} agree if {}", explanation->markers, explanation->cause)
+                  : std::string();
   // A marker that is read wrongly fits to a pose of its own as well as a right one.
   const bool mistaken = explanation && explanation->exact && against.size() > 1 &&
                         explanation->markers == location.markers_seen;

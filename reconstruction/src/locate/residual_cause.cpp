@@ -6,6 +6,7 @@
 #include <cmath>
 #include <functional>
 
+#include "locate/golden_section.hpp"
 #include "vantage/raycore/error.hpp"
 
 namespace vantage::reconstruction::detail {
@@ -99,9 +100,10 @@ std::vector<Deviation> deviations(DeviationSearch& search, const Lens& lens, con
                    return search.with_lens(lens.intrinsics(), d);
                  },
                  [](double by) {
-                   return fmt::format("the lens has a radial distortion k1 of {:+.3f} beside what "
-                                      "the calibration says; give --calibration",
-                                      by);
+                   return fmt::format(
+                       "the lens has a radial distortion k1 of {:+.3f} beside what "
+                       "the calibration says; give --calibration",
+                       by);
                  },
                  0.6});
   all.push_back({[&search](double by) {
@@ -112,9 +114,10 @@ std::vector<Deviation> deviations(DeviationSearch& search, const Lens& lens, con
                    });
                  },
                  [](double by) {
-                   return fmt::format("the board's markers are {:.3f} times as large as size_m "
-                                      "says, for the distances between them",
-                                      1 + by);
+                   return fmt::format(
+                       "the board's markers are {:.3f} times as large as size_m "
+                       "says, for the distances between them",
+                       1 + by);
                  },
                  0.25});
   for (int eighth = 0; eighth < 4; ++eighth) {
@@ -131,7 +134,6 @@ struct Found {
 
 /// The least chi-square over the parameter, by golden sections.
 Found least(const Deviation& deviation, const BoardFit& board) {
-  constexpr double kInvGolden = 0.6180339887498949;
   constexpr int kSteps = 30;
   Found best;
   const auto cost = [&](double parameter) {
@@ -142,18 +144,7 @@ Found least(const Deviation& deviation, const BoardFit& board) {
     if (fit->chi_square < best.chi_square) best = {parameter, fit->chi_square, fit->T_ref_body};
     return fit->chi_square;
   };
-  double low = -deviation.bound, high = deviation.bound;
-  double a = high - kInvGolden * (high - low), b = low + kInvGolden * (high - low);
-  double cost_a = cost(a), cost_b = cost(b);
-  for (int i = 0; i < kSteps; ++i) {
-    if (cost_a < cost_b) {
-      high = b, b = a, cost_b = cost_a;
-      a = high - kInvGolden * (high - low), cost_a = cost(a);
-    } else {
-      low = a, a = b, cost_a = cost_b;
-      b = low + kInvGolden * (high - low), cost_b = cost(b);
-    }
-  }
+  least_by_golden_section(-deviation.bound, deviation.bound, kSteps, cost);
   return best;
 }
 

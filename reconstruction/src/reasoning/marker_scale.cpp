@@ -51,9 +51,10 @@ std::string fitting_size(std::span<const CameraView> views,
       if (sightings[a].view == sightings[b].view) continue;
       const auto factor = common_factor(sightings[a], sightings[b]);
       if (!factor) continue;
-      return fmt::format("; images {} and {} would have it at one place if its sizes (size_m) were "
-                         "{:.3f} times those of the knowledge base",
-                         views[sightings[a].view].name, views[sightings[b].view].name, *factor);
+      return fmt::format(
+          "; images {} and {} would have it at one place if its sizes (size_m) were "
+          "{:.3f} times those of the knowledge base",
+          views[sightings[a].view].name, views[sightings[b].view].name, *factor);
     }
   }
   return {};

@@ -8,6 +8,7 @@
 #include "reasoning/marker_scale.hpp"
 #include "reasoning/solid_body.hpp"
 #include "vantage/raycore/advanced/scene_builder.hpp"
+#include "vantage/raycore/detail/mesh_measures.hpp"
 #include "vantage/reconstruction/check_scene.hpp"
 
 namespace vantage {
@@ -39,9 +40,7 @@ bool is_hidden(const Scene& scene, const Eigen::Vector3d& eye,
 
 /// A camera's own housing, which it looks out of, hides nothing.
 bool is_around(const KnownObject& solid, const Eigen::Vector3d& eye) {
-  Eigen::AlignedBox3d bounds;
-  for (const Eigen::Vector3f& vertex : solid.mesh->vertices()) bounds.extend(vertex.cast<double>());
-  return bounds.contains(solid.T_world_object.inverse() * eye);
+  return raycore::detail::bounds_of(*solid.mesh).contains(solid.T_world_object.inverse() * eye);
 }
 
 std::vector<Eigen::Vector3d> feature_points(const ReconstructedObject& object,

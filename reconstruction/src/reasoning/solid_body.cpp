@@ -4,37 +4,21 @@
 #include <cmath>
 
 #include "vantage/raycore/advanced/scene_builder.hpp"
+#include "vantage/raycore/detail/mesh_measures.hpp"
 
 namespace vantage::reconstruction::detail {
 namespace {
 
+using raycore::detail::bounds_of;
+using raycore::detail::winding_number;
+
 constexpr std::size_t kSampledVertices = 64;
-
-Eigen::AlignedBox3d bounds_of(const TriangleMesh& mesh) {
-  Eigen::AlignedBox3d box;
-  for (const Eigen::Vector3f& vertex : mesh.vertices()) box.extend(vertex.cast<double>());
-  return box;
-}
-
-/// How often the surface winds around the point (van Oosterom and Strackee 1983): 1 inside.
-double winding(const TriangleMesh& mesh, const Eigen::Vector3d& point) {
-  double angle = 0;
-  for (std::size_t t = 0; t < mesh.triangles().size(); ++t) {
-    const Eigen::Vector3d a = mesh.corner(t, 0).cast<double>() - point;
-    const Eigen::Vector3d b = mesh.corner(t, 1).cast<double>() - point;
-    const Eigen::Vector3d c = mesh.corner(t, 2).cast<double>() - point;
-    const double la = a.norm(), lb = b.norm(), lc = c.norm();
-    angle += 2 * std::atan2(a.dot(b.cross(c)),
-                            la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
-  }
-  return angle / (4 * EIGEN_PI);
-}
 
 /// Whether some of the body's points lie in the other one.
 bool reaches_into(const TriangleMesh& body, const TriangleMesh& other) {
   const Eigen::AlignedBox3d space = bounds_of(other);
   const auto inside = [&](const Eigen::Vector3d& point) {
-    return space.contains(point) && std::abs(winding(other, point)) > 0.5;
+    return space.contains(point) && std::abs(winding_number(other, point)) > 0.5;
   };
   if (inside(bounds_of(body).center())) return true;
   const std::size_t step = std::max<std::size_t>(1, body.vertices().size() / kSampledVertices);

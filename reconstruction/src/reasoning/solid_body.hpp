@@ -7,7 +7,8 @@
 
 namespace vantage::reconstruction::detail {
 
-/// An object's body without its outermost layer, which a pose that is slightly off may put anywhere.
+/// An object's body without its outermost layer, which a pose that is slightly off may put
+/// anywhere.
 class Body {
  public:
   /// The layer is `slack_m` thick, measured along the object's shortest side.

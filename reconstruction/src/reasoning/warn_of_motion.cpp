@@ -64,9 +64,8 @@ struct Motion {
 void note(const Motion& motion, std::span<const CameraView> views, ReconstructedObject& object) {
   Eigen::Matrix<double, 6, 1> step;
   step.head<3>() = motion.rest.T_world_object.translation() - object.T_world_object.translation();
-  step.tail<3>() =
-      reconstruction::detail::log_of(motion.rest.T_world_object.quaternion() *
-                                     object.T_world_object.quaternion().conjugate());
+  step.tail<3>() = reconstruction::detail::log_of(motion.rest.T_world_object.quaternion() *
+                                                  object.T_world_object.quaternion().conjugate());
   if (object.covariance) *object.covariance += step * step.transpose();
   object.warning = fmt::format(
       "image {} disagrees with the others: without it the residuals fall from {:.2f} to {:.2f} px; "
@@ -97,7 +96,8 @@ void warn_of_motion(std::span<const CameraView> views, const KnowledgeBase& know
     note(*best, views, object);
     if (seeing.size() == 2) {
       object.warning = fmt::format(
-          "images {} and {} disagree: each alone has residuals below {:.2f} px, both together {:.2f} "
+          "images {} and {} disagree: each alone has residuals below {:.2f} px, both together "
+          "{:.2f} "
           "px; the object moved between the pictures, or a camera's pose is wrong",
           views[*seeing.begin()].name, views[*seeing.rbegin()].name, kMostOfIt * object.rms_px,
           object.rms_px);

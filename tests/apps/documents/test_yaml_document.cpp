@@ -213,7 +213,8 @@ TEST_CASE("reading stops soon after it was cancelled") {
 
 TEST_CASE("no document and many are refused") {
   expect_yaml_refused("", "t.yaml", {"empty"});
-  expect_error(ErrorCode::bad_input, "t.yaml", "empty", [] { parse_yaml(std::string_view(), "t.yaml"); });
+  expect_error(ErrorCode::bad_input, "t.yaml", "empty",
+               [] { parse_yaml(std::string_view(), "t.yaml"); });
   expect_yaml_refused("# only a comment\n", "t.yaml", {"empty"});
   expect_yaml_refused("a: 1\n---\nb: 2\n", "t.yaml:2:1", {"second document", "expected one"});
 }

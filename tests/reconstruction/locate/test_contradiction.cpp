@@ -14,8 +14,14 @@ constexpr double kNoise_px = 0.05;
 SeenBoard ring() {
   SeenBoard board;
   int id = 0;
-  for (const auto& [x, y] : {std::pair(-0.2, -0.12), {0.0, -0.12}, {0.2, -0.12}, {0.2, 0.0},
-                             {0.2, 0.12}, {0.0, 0.12}, {-0.2, 0.12}, {-0.2, 0.0}}) {
+  for (const auto& [x, y] : {std::pair(-0.2, -0.12),
+                             {0.0, -0.12},
+                             {0.2, -0.12},
+                             {0.2, 0.0},
+                             {0.2, 0.12},
+                             {0.0, 0.12},
+                             {-0.2, 0.12},
+                             {-0.2, 0.0}}) {
     board.add_marker(id++, 0.05, Pose::from_translation({x, y, 0}));
   }
   return board;
@@ -116,8 +122,7 @@ TEST_CASE("other mistakes are named: resolution, axes, sizes, parity") {
         if ((row + column) % 2) continue;
         const double y = 0.054 * (2 - row);
         light.add_marker(id, 0.04, Pose::from_translation({0.054 * column, y, 0}));
-        dark.add_marker(id++, 0.04,
-                        Pose::from_translation({0.054 * (column ^ 1), y, 0}));
+        dark.add_marker(id++, 0.04, Pose::from_translation({0.054 * (column ^ 1), y, 0}));
       }
     }
     light.look(pinhole(), camera, kNoise_px, random);

@@ -59,8 +59,9 @@ TEST_CASE("objects on a table stay; none is thrown out by what is right") {
   }
 }
 
-TEST_CASE("markers of another size than stated: their objects are below the table, and the size is "
-          "named") {
+TEST_CASE(
+    "markers of another size than stated: their objects are below the table, and the size is "
+    "named") {
   Random random(3);
   std::uint32_t named = 0, kept = 0;
   const std::uint32_t scenes = scene_count(15);

@@ -38,8 +38,8 @@ struct Cell {
       const Eigen::Vector3d eye(distance * std::cos(turn), distance * std::sin(turn),
                                 random.uniform(0.7, 1.2));
       const PinholeCamera camera(kImage, Pose::looking_at(eye, {0, 0, 0.05}));
-      world.cameras.push_back({std::to_string(i), camera,
-                               std::make_shared<DepthImage>(scene->render_depth(camera))});
+      world.cameras.push_back(
+          {std::to_string(i), camera, std::make_shared<DepthImage>(scene->render_depth(camera))});
     }
   }
 
@@ -73,7 +73,8 @@ bool says(const std::string& text, const char* words) {
   return text.find(words) != std::string::npos;
 }
 
-KnownObject box_at(const std::string& name, const Eigen::Vector3d& size, const Eigen::Vector3d& at) {
+KnownObject box_at(const std::string& name, const Eigen::Vector3d& size,
+                   const Eigen::Vector3d& at) {
   return {name, std::make_shared<TriangleMesh>(box_solid(size)), Pose::from_translation(at)};
 }
 

@@ -7,12 +7,16 @@
 #include <numbers>
 #include <numeric>
 
+#include "vantage/raycore/detail/mesh_measures.hpp"
+
 namespace vantage::volume::detail {
 namespace {
 
 constexpr std::size_t kLeafTriangles = 8;
 /// How many radii a point has to be away for a node to stand for its triangles (Barill's beta).
 constexpr double kFar = 2.3;
+
+using raycore::detail::half_solid_angle;
 
 using Corners = std::array<Eigen::Vector3d, 3>;
 
@@ -24,14 +28,6 @@ Corners corners_of(const Triangle& triangle, std::span<const Eigen::Vector3f> v)
 /// Twice the area vector.
 Eigen::Vector3d doubled_area(const Corners& c) {
   return (c[1] - c[0]).cross(c[2] - c[0]);
-}
-
-/// Half the solid angle of a triangle (Van Oosterom and Strackee, 1983), positive from behind it.
-double half_solid_angle(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
-                        const Eigen::Vector3d& c) {
-  const double la = a.norm(), lb = b.norm(), lc = c.norm();
-  return std::atan2(a.dot(b.cross(c)),
-                    la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
 }
 
 /// The products of three coordinates that a cubic form is made of, in the order of `Node::cubic`.

@@ -9,13 +9,13 @@
 namespace vantage::volume::detail {
 namespace {
 
-constexpr std::size_t kCommon = 150;     ///< samples that both see, below which nothing is said
-constexpr double kContradicted = 0.5;    ///< share of them
-constexpr double kNoise = 0.02;          ///< metres, and the same per metre of depth
+constexpr std::size_t kCommon = 150;   ///< samples that both see, below which nothing is said
+constexpr double kContradicted = 0.5;  ///< share of them
+constexpr double kNoise = 0.02;        ///< metres, and the same per metre of depth
 
 struct Common {
-  std::size_t samples = 0;  ///< readings of one camera, in or close to the work area, that the other
-                            ///< one has a reading for
+  std::size_t samples = 0;  ///< readings of one camera, in or close to the work area, that the
+                            ///< other one has a reading for
   std::size_t through = 0;  ///< those that the other one sees through
 
   void add(const Common& more) {
@@ -87,12 +87,11 @@ void check_agreement(const std::vector<SampledCamera>& cameras, const Box& work_
   const std::vector<Common> all = contradictions(cameras, nullptr, work_area);
   const auto worst = std::ranges::max_element(all, {}, &Common::share);
   if (worst == all.end() || worst->share() < kContradicted) return;
-  const std::string who =
-      cameras.size() == 2
-          ? fmt::format("images {} and {} contradict each other", cameras[0].camera->name,
-                        cameras[1].camera->name)
-          : fmt::format("image {} and the others contradict each other",
-                        cameras[std::size_t(worst - all.begin())].camera->name);
+  const std::string who = cameras.size() == 2
+                              ? fmt::format("images {} and {} contradict each other",
+                                            cameras[0].camera->name, cameras[1].camera->name)
+                              : fmt::format("image {} and the others contradict each other",
+                                            cameras[std::size_t(worst - all.begin())].camera->name);
   findings.push_back(fmt::format(
       "{}: {:.0f} % of the surface that one measures in and around the work area is seen through "
       "by another; {}",

@@ -65,13 +65,14 @@ std::string cause_of(const std::vector<DepthSample>& samples) {
   std::vector<DepthSample> scaled = samples;
   for (DepthSample& sample : scaled) sample.depth_m *= *factor;
   const std::optional<double> step = coarse_step(scaled, 0.1);
-  return fmt::format("they would fit {}: check depth_scale (millimetres for one count of the "
-                     "image){}",
-                     factor_text(*factor),
-                     step ? fmt::format(", and the depths, which then are all multiples of {:g} m: "
-                                        "were they rounded to whole metres?",
-                                        *step)
-                          : "");
+  return fmt::format(
+      "they would fit {}: check depth_scale (millimetres for one count of the "
+      "image){}",
+      factor_text(*factor),
+      step ? fmt::format(", and the depths, which then are all multiples of {:g} m: "
+                         "were they rounded to whole metres?",
+                         *step)
+           : "");
 }
 
 struct Share {
@@ -106,9 +107,10 @@ std::string oddity(const SampledCamera& camera, double voxel_size_m) {
   const Share share = share_of(samples);
   const double all = double(share.crossing);
   if (too_near) {
-    return fmt::format("no reading is within the depth range of {:g} m to {:g} m: they go from {}; "
-                       "{}",
-                       range.near_m, range.far_m, span, cause_of(samples));
+    return fmt::format(
+        "no reading is within the depth range of {:g} m to {:g} m: they go from {}; "
+        "{}",
+        range.near_m, range.far_m, span, cause_of(samples));
   }
   if (share.crossing >= kEnough && double(share.far_before) > 0.9 * all) {
     return fmt::format("the readings, from {}, end far before the work area; {}", span,
@@ -121,9 +123,10 @@ std::string oddity(const SampledCamera& camera, double voxel_size_m) {
   }
   const std::optional<double> step = coarse_step(samples, std::max(0.05, 5 * voxel_size_m));
   if (samples.size() >= kEnough && step) {
-    return fmt::format("all readings are multiples of {:.4g} m: were they rounded to whole metres, "
-                       "or stored with too few bits?",
-                       *step);
+    return fmt::format(
+        "all readings are multiples of {:.4g} m: were they rounded to whole metres, "
+        "or stored with too few bits?",
+        *step);
   }
   return {};
 }

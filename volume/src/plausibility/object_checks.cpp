@@ -5,32 +5,15 @@
 
 #include "objects/mesh_topology.hpp"
 #include "plausibility/checks.hpp"
+#include "vantage/raycore/detail/mesh_measures.hpp"
 
 namespace vantage::volume::detail {
 namespace {
 
 constexpr double kWideArea_m = 20;
 
-/// The solid angle of all triangles as seen from a point, in turns (van Oosterom and Strackee
-/// 1983): 1 inside of a closed mesh, 0 outside.
-double winding_at(const TriangleMesh& mesh, const Eigen::Vector3d& point) {
-  double angle = 0;
-  for (std::size_t t = 0; t < mesh.triangles().size(); ++t) {
-    const Eigen::Vector3d a = mesh.corner(t, 0).cast<double>() - point;
-    const Eigen::Vector3d b = mesh.corner(t, 1).cast<double>() - point;
-    const Eigen::Vector3d c = mesh.corner(t, 2).cast<double>() - point;
-    const double la = a.norm(), lb = b.norm(), lc = c.norm();
-    angle += 2 * std::atan2(a.dot(b.cross(c)),
-                            la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
-  }
-  return angle / (4 * EIGEN_PI);
-}
-
-Eigen::AlignedBox3d bounds_of(const TriangleMesh& mesh) {
-  Eigen::AlignedBox3d box;
-  for (const Eigen::Vector3f& vertex : mesh.vertices()) box.extend(vertex.cast<double>());
-  return box;
-}
+using raycore::detail::bounds_of;
+using raycore::detail::winding_number;
 
 void check_inside(const KnownObject& solid, const Eigen::AlignedBox3d& bounds,
                   const std::vector<DepthCamera>& cameras, Findings& findings) {
@@ -38,7 +21,7 @@ void check_inside(const KnownObject& solid, const Eigen::AlignedBox3d& bounds,
     const Eigen::Vector3d centre = solid.T_world_object.inverse() * camera.camera.centre();
     if (!bounds.contains(centre)) continue;
     if (MeshTopology(*solid.mesh).closure == Closure::open) continue;
-    if (std::abs(winding_at(*solid.mesh, centre)) < 0.5) continue;
+    if (std::abs(winding_number(*solid.mesh, centre)) < 0.5) continue;
     findings.push_back(fmt::format(
         "image {}: the camera stands inside {}, which hides everything from it: move one of them, "
         "or leave the housing of a camera out of the static structures",
@@ -55,9 +38,10 @@ void check_size(const KnownObject& object, const Eigen::AlignedBox3d& bounds, do
                     "another unit (unit_m), or the voxel too large for it?",
                     object.name, extent, voxel_size_m));
   } else if (extent > widest_m) {
-    findings.push_back(fmt::format("{}: it is {:.4g} m large: is its mesh in millimetres "
-                                   "(unit_m: 0.001)?",
-                                   object.name, extent));
+    findings.push_back(
+        fmt::format("{}: it is {:.4g} m large: is its mesh in millimetres "
+                    "(unit_m: 0.001)?",
+                    object.name, extent));
   }
 }
 
@@ -68,9 +52,10 @@ void check_place(const KnownObject& object, const Eigen::AlignedBox3d& bounds, c
   const double diagonal = work_area.size().norm();
   const double away = (centre - work_area.centre()).norm() - radius - 0.5 * diagonal;
   if (away < 20 * diagonal || away < 5) return;
-  findings.push_back(fmt::format("{}: it lies {:.4g} m away from the work area: is its position in "
-                                 "millimetres, where metres are expected?",
-                                 object.name, away));
+  findings.push_back(
+      fmt::format("{}: it lies {:.4g} m away from the work area: is its position in "
+                  "millimetres, where metres are expected?",
+                  object.name, away));
 }
 
 }  // namespace
@@ -79,10 +64,10 @@ void check_objects(const WorldModel& world, const Box& work_area, double voxel_s
                    Findings& findings) {
   const double diagonal = work_area.size().norm();
   if (work_area.size().maxCoeff() > kWideArea_m) {
-    findings.push_back(fmt::format("the work area is {:.4g} m x {:.4g} m x {:.4g} m large: are "
-                                   "these millimetres? Metres are expected",
-                                   work_area.size().x(), work_area.size().y(),
-                                   work_area.size().z()));
+    findings.push_back(
+        fmt::format("the work area is {:.4g} m x {:.4g} m x {:.4g} m large: are "
+                    "these millimetres? Metres are expected",
+                    work_area.size().x(), work_area.size().y(), work_area.size().z()));
   }
   for (const KnownObject& object : world.objects) {
     const Eigen::AlignedBox3d bounds = bounds_of(*object.mesh);

@@ -19,10 +19,11 @@ struct PoseReading {
 
 std::span<const PoseReading> pose_readings();
 
-/// How well cameras fit the work area: whether it lies in their images, and what they measure in it.
+/// How well cameras fit the work area: whether it lies in their images, and what they measure in
+/// it.
 struct AreaFit {
-  double coverage = 0;  ///< mean share of the work area that lies in an image
-  double measured = 0;  ///< mean share of the readings that lie in or close to the work area
+  double coverage = 0;     ///< mean share of the work area that lies in an image
+  double measured = 0;     ///< mean share of the readings that lie in or close to the work area
   std::size_t seeing = 0;  ///< cameras that have a good part of it in their image
 
   double score() const { return coverage * (0.1 + measured); }

@@ -22,9 +22,10 @@ std::string misread_poses(const std::vector<const SampledCamera*>& cameras, cons
   if (reading == nullptr || given.measured > kNextToNothing) return {};
   const AreaFit meant = fit_of(cameras, reading, work_area);
   if (meant.measured < kMuch || meant.score() < 5 * given.score()) return {};
-  return fmt::format("next to nothing is measured in the work area ({:.1g} % of the readings lie "
-                     "there): {:.0f} % would if {}",
-                     100 * given.measured, 100 * meant.measured, reading->cause);
+  return fmt::format(
+      "next to nothing is measured in the work area ({:.1g} % of the readings lie "
+      "there): {:.0f} % would if {}",
+      100 * given.measured, 100 * meant.measured, reading->cause);
 }
 
 std::string cause_of(const std::vector<const SampledCamera*>& cameras, const Box& work_area) {
@@ -43,8 +44,7 @@ void check_views(const std::vector<SampledCamera>& cameras, const Box& work_area
     if (camera.coverage <= kSeesNothing) blind.push_back(&camera);
   }
   if (!blind.empty() && blind.size() == cameras.size()) {
-    findings.push_back(
-        fmt::format("no image sees the work area: {}", cause_of(blind, work_area)));
+    findings.push_back(fmt::format("no image sees the work area: {}", cause_of(blind, work_area)));
   } else {
     // A long recording has images that look elsewhere; each of a few cameras should see something.
     if (cameras.size() > kFewCameras) blind.clear();
@@ -78,14 +78,11 @@ std::string resolution_misfit(const Intrinsics& k) {
     double value;
     const char* words;
   };
-  constexpr std::array kFactors = {Factor{0.5, "twice as large"},
-                                   Factor{2, "half as large"},
-                                   Factor{1.0 / 3, "three times as large"},
-                                   Factor{3, "a third as large"},
-                                   Factor{0.25, "four times as large"},
-                                   Factor{4, "a quarter as large"},
-                                   Factor{2.0 / 3, "1.5 times as large"},
-                                   Factor{1.5, "two thirds as large"}};
+  constexpr std::array kFactors = {
+      Factor{0.5, "twice as large"},           Factor{2, "half as large"},
+      Factor{1.0 / 3, "three times as large"}, Factor{3, "a third as large"},
+      Factor{0.25, "four times as large"},     Factor{4, "a quarter as large"},
+      Factor{2.0 / 3, "1.5 times as large"},   Factor{1.5, "two thirds as large"}};
   for (const Factor& factor : kFactors) {
     if (off(factor.value) > kCentred) continue;
     return fmt::format(

@@ -18,7 +18,8 @@ struct SceneKnowledge {
   std::vector<std::vector<Eigen::Vector3d>> seen_points = {};
 };
 
-/// Takes objects out of a reconstruction that the scene contradicts, by the geometry of one instant:
+/// Takes objects out of a reconstruction that the scene contradicts, by the geometry of one
+/// instant:
 ///
 /// - a camera could not see the object's features where they would be, as a solid hides them (an
 ///   object below the table);
