@@ -73,7 +73,7 @@ struct Case {
 
   nlohmann::ordered_json json() const {
     return world_to_json(scene, workcell, made, known_objects(made.result),
-                         {{}, {{"method", "pnp"}}, 0.1, 0.2});
+                         {{}, {{"method", "pnp"}}, {"odd"}, 0.1, 0.2});
   }
 };
 

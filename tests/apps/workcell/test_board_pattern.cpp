@@ -16,7 +16,7 @@ Workcell cell_with(const std::string& text) {
   return load_workcell(folder.write("cell.yaml", kAreaLine + text));
 }
 
-void expect_cell_refused(const std::string& text, std::string_view where,
+void expect_pattern_refused(const std::string& text, std::string_view where,
                          std::initializer_list<std::string_view> parts) {
   CAPTURE(text);
   expect_refused([&] { cell_with(text); }, where, parts);
@@ -85,23 +85,23 @@ TEST_CASE("a grid has rows of markers, counted from the upper left") {
 TEST_CASE("boards that cannot be are refused with their key") {
   const std::string charuco =
       "charuco: {columns: 5, rows: 7, square_m: 0.04, marker_m: 0.02, dictionary: 4X4_50}";
-  expect_cell_refused("board: {size_m: [1, 1], dictionary: 4X4_50}\n", "board",
+  expect_pattern_refused("board: {size_m: [1, 1], dictionary: 4X4_50}\n", "board",
                       {"none of the keys markers, charuco and grid"});
-  expect_cell_refused("board: {" + charuco + ", markers: []}\n", "board", {"found 2"});
-  expect_cell_refused("board: {" + charuco + ", dictionary: 4X4_50}\n", "board.dictionary",
+  expect_pattern_refused("board: {" + charuco + ", markers: []}\n", "board", {"found 2"});
+  expect_pattern_refused("board: {" + charuco + ", dictionary: 4X4_50}\n", "board.dictionary",
                       {"does not belong"});
-  expect_cell_refused("board: {" + charuco + ", size_m: [0.1, 0.28]}\n", "board.size_m",
+  expect_pattern_refused("board: {" + charuco + ", size_m: [0.1, 0.28]}\n", "board.size_m",
                       {"0.1 x 0.28", "0.2 x 0.28"});
-  expect_cell_refused("board: {dictionary: 4X4_50, markers: []}\n", "board", {"\"size_m\""});
-  expect_cell_refused(
+  expect_pattern_refused("board: {dictionary: 4X4_50, markers: []}\n", "board", {"\"size_m\""});
+  expect_pattern_refused(
       "board: {charuco: {columns: 5, rows: 7, square_m: 0.02, marker_m: 0.02, "
       "dictionary: 4X4_50}}\n",
       "board.charuco.marker_m", {"less than square_m"});
-  expect_cell_refused(
+  expect_pattern_refused(
       "board: {charuco: {columns: 50, rows: 7, square_m: 0.03, marker_m: 0.02, "
       "dictionary: 4X4_50}}\n",
       "board.charuco.dictionary", {"50 markers"});
-  expect_cell_refused(
+  expect_pattern_refused(
       "board: {grid: {columns: 5, rows: 7, gap_m: 0.03, marker_m: 0.02, "
       "dictionary: 9X9}}\n",
       "board.grid.dictionary", {"no marker dictionary '9X9'", "4X4_50"});

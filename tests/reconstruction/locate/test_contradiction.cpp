@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 
 #include "reconstruction/seen_board.hpp"
+#include "reference/plain_least_squares.hpp"
 #include "support/scene_count.hpp"
 
 namespace vantage::test {

@@ -13,6 +13,7 @@ namespace vantage {
 namespace {
 
 using test::Random;
+using test::scene_count;
 
 const Box kArea({-0.3, -0.3, 0}, {0.3, 0.3, 0.3});
 constexpr double kVoxel_m = 0.01;
