@@ -13,7 +13,7 @@ test::CommandResult validate(const std::filesystem::path& scene, const std::stri
 
 }  // namespace
 
-TEST_CASE("validate: nothing is odd about a recording that fits; exit code 0") {
+TEST_CASE("validate: nothing is odd about a recording that fits, with exit code 0") {
   const test::TemporaryFolder folder;
   const auto scene = test::write_scene(folder);
   const auto result = validate(scene);
@@ -23,7 +23,7 @@ TEST_CASE("validate: nothing is odd about a recording that fits; exit code 0") {
   CHECK(validate(scene, " --json").json()["findings"].empty());
 }
 
-TEST_CASE("validate: a depth scale and poses that do not fit are named; exit code 3; plan warns") {
+TEST_CASE("validate: a depth scale and poses that do not fit are named with exit code 3, and plan warns") {
   const test::TemporaryFolder folder;
   const auto scene = test::write_scene(folder);
   nlohmann::json entry = test::scene_camera();

@@ -34,6 +34,7 @@ bool is_temporary_name(const std::string& name) {
   const std::size_t begin = std::string(kTemporaryPrefix).size();
   const std::size_t dash = name.find_first_not_of("0123456789", begin);
   if (dash == begin || dash == std::string::npos || name[dash] != '-') return false;
+  if (dash + 1 == name.size()) return false;
   const std::size_t end = name.find_first_not_of("0123456789", dash + 1);
   return end != dash + 1 && (end == std::string::npos || name[end] == '.');
 }

@@ -72,21 +72,20 @@ std::string feature_place(const ObjectType& type, std::size_t index) {
   return fmt::format("{}.features[{}]", place_of(type), index);
 }
 
-/// A marker is printed on a face of the object: it cannot stick out.
+/// A marker is printed on a face of the object: it cannot be larger than the object along its
+/// edges.
 void check_fits(const ObjectType& type, const Marker& marker, const std::string& place) {
-  constexpr double kRoom_m = 0.001, kRoom = 0.02;  // a sticker, a rounded mesh
+  constexpr double kRoom_m = 0.001, kRoom = 1.02;  // a sticker, a rounded mesh
   const Eigen::AlignedBox3d bounds = raycore::detail::bounds_of(*type.mesh);
-  if (bounds.isEmpty() || !marker.T_object_marker.translation().allFinite()) return;
-  const double room = kRoom_m + kRoom * bounds.diagonal().norm();
-  const Eigen::AlignedBox3d wide(bounds.min() - Eigen::Vector3d::Constant(room),
-                                 bounds.max() + Eigen::Vector3d::Constant(room));
-  for (const Eigen::Vector3d& corner : marker.corners()) {
-    if (wide.contains(corner)) continue;
-    const Eigen::Vector3d size = bounds.sizes();
+  if (bounds.isEmpty()) return;
+  const Eigen::Vector3d size = bounds.sizes();
+  for (int axis = 0; axis < 2; ++axis) {
+    const Eigen::Vector3d edge = marker.T_object_marker.rotation().col(axis);
+    if (marker.size_m <= kRoom * edge.cwiseAbs().dot(size) + kRoom_m) continue;
     throw bad_input(place,
-                    fmt::format("the marker {} of {:g} m sticks out of its object, which is {:.4g} "
-                                "x {:.4g} x {:.4g} m: check size_m, the marker's place, and the "
-                                "shape's size",
+                    fmt::format("the marker {} of {:g} m is larger than the face that carries it: "
+                                "the object is {:.4g} x {:.4g} x {:.4g} m; check size_m, and the "
+                                "size of the shape",
                                 marker.id, marker.size_m, size.x(), size.y(), size.z()));
   }
 }

@@ -158,21 +158,16 @@ std::vector<PoseFit> other_minima(std::span<const BoardPair> all, const BoardFit
 
 double chi_square_if_bent(std::span<const BoardPair> all, const BoardFit& board) {
   constexpr double kFlatness = 0.015;
-  std::vector<Eigen::Vector3d> points;
-  for (const std::size_t i : board.pairs) {
-    const auto& of_pair = all[i].term.points_m;
-    points.insert(points.end(), of_pair.begin(), of_pair.end());
-  }
-  const auto [centre, axes, extents] = principal_axes(points);
-  const Eigen::Vector3d bend = 2 * kFlatness * extents[0] * axes.col(2);  // extents: half the sides
   double sum = 0;
   for (const std::size_t i : board.pairs) {
     const PointTerm& term = all[i].term;
+    const auto [centre, axes, extents] = principal_axes(term.points_m);
+    const Eigen::Vector3d bend = 2 * kFlatness * extents[0] * axes.col(2);  // extents: half sides
     const std::vector<double> residuals = residuals_px(term, board.T_cam_world());
     for (std::size_t p = 0; p < residuals.size(); ++p) {
-      const Eigen::Vector3d at = board.T_cam_world() * term.points_m[p];
+      const Eigen::Vector3d flat = board.T_cam_world() * term.points_m[p];
       const Eigen::Vector3d bent = board.T_cam_world() * (term.points_m[p] + bend);
-      const double bend_px = (term.lens->project(bent) - term.lens->project(at)).norm();
+      const double bend_px = (term.lens->project(bent) - term.lens->project(flat)).norm();
       sum += residuals[p] * residuals[p] / (term.sigma_px * term.sigma_px + bend_px * bend_px);
     }
   }

@@ -65,8 +65,8 @@ std::vector<PoseFit> other_minima(std::span<const BoardPair> all, const BoardFit
 /// Degrees of freedom that are left for the residuals of so many points.
 double freedom_of(std::size_t points);
 
-/// The sum of squares where no print is taken to be flatter than 1.5 % of its size: what a
-/// bent sheet does to the pixels is no evidence for one of two tilts.
+/// The sum of squares where no marker is taken to be flatter than 1.5 % of its size: what a bent
+/// sheet does to the pixels is no evidence for one of two tilts.
 double chi_square_if_bent(std::span<const BoardPair> all, const BoardFit& board);
 
 /// What a chi-square is to be divided by where the residuals are larger than their sigmas say: what

@@ -195,10 +195,12 @@ void doubt(const Lens& lens, const SeenBoard& seen, const BoardFit& best,
   }
   const auto residuals = reconstruction::detail::residual_cause(lens, seen.pairs, best);
   if (!residuals) return;
+  constexpr double kNotable = 3;  // real lenses and prints are never quite as they should be
   // The corners of one marker err together: they count as one.
   constexpr double kCornersOfMarker = 4;
   if (residuals->cause.empty()) location.pose->covariance *= kCornersOfMarker;
   if (!residuals->cause.empty()) widen(*location.pose, residuals->T_cam_world.inverse());
+  if (residuals->noise_ratio < kNotable) return;
   const std::string text = fmt::format(
       "the residuals are {:.1f} times the corners' noise: {}", residuals->noise_ratio,
       residuals->cause.empty() ? "check the calibration, and the board's sizes and flatness"
@@ -235,7 +237,9 @@ CameraLocation locate_camera(const Lens& lens, std::span<const Observation> obse
   const bool mistaken = explanation && explanation->exact && against.size() > 1 &&
                         explanation->markers == location.markers_seen;
   const bool majority = best && best->pairs.size() >= 2 * against.size() && !mistaken;
-  if (!best || !majority || (best->pairs.size() < 2 && seen.observations.size() > 1)) {
+  const bool two_groups = best && contradiction(seen.pairs, fits) != nullptr;
+  if (!best || (!majority && !two_groups) ||
+      (best->pairs.size() < 2 && seen.observations.size() > 1)) {
     location.reason = disagreement(seen, best, options.inlier_px) + hint;
     return location;
   }

@@ -12,7 +12,7 @@
 namespace vantage::reconstruction::detail {
 namespace {
 
-constexpr double kNotNoise = 3;  ///< times the corners' noise
+constexpr double kNotNoise = 1.5;  ///< times the corners' noise
 
 /// A model with one parameter; 0 is what was given.
 struct Deviation {

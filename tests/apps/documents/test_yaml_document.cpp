@@ -154,7 +154,7 @@ TEST_CASE("keys have a longest") {
   expect_yaml_refused("? " + std::string(1025, 'k') + "\n: 1\n", "t.yaml:1:3", {"1025", "1024"});
 }
 
-TEST_CASE("lines may end in LF, CR LF or CR; a byte order mark is passed over") {
+TEST_CASE("lines may end in LF, CR LF or CR, and a byte order mark is passed over") {
   const json expected = json::parse(R"({"a": {"b": [1, 2]}, "c": "d"})");
   for (const std::string text :
        {"a:\n  b:\n    - 1\n    - 2\nc: d\n", "a:\r\n  b:\r\n    - 1\r\n    - 2\r\nc: d\r\n",

@@ -17,7 +17,7 @@ Workcell cell_with(const std::string& text) {
 }
 
 void expect_pattern_refused(const std::string& text, std::string_view where,
-                         std::initializer_list<std::string_view> parts) {
+                            std::initializer_list<std::string_view> parts) {
   CAPTURE(text);
   expect_refused([&] { cell_with(text); }, where, parts);
 }
@@ -86,12 +86,12 @@ TEST_CASE("boards that cannot be are refused with their key") {
   const std::string charuco =
       "charuco: {columns: 5, rows: 7, square_m: 0.04, marker_m: 0.02, dictionary: 4X4_50}";
   expect_pattern_refused("board: {size_m: [1, 1], dictionary: 4X4_50}\n", "board",
-                      {"none of the keys markers, charuco and grid"});
+                         {"none of the keys markers, charuco and grid"});
   expect_pattern_refused("board: {" + charuco + ", markers: []}\n", "board", {"found 2"});
   expect_pattern_refused("board: {" + charuco + ", dictionary: 4X4_50}\n", "board.dictionary",
-                      {"does not belong"});
+                         {"does not belong"});
   expect_pattern_refused("board: {" + charuco + ", size_m: [0.1, 0.28]}\n", "board.size_m",
-                      {"0.1 x 0.28", "0.2 x 0.28"});
+                         {"0.1 x 0.28", "0.2 x 0.28"});
   expect_pattern_refused("board: {dictionary: 4X4_50, markers: []}\n", "board", {"\"size_m\""});
   expect_pattern_refused(
       "board: {charuco: {columns: 5, rows: 7, square_m: 0.02, marker_m: 0.02, "

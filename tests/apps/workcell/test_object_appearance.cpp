@@ -50,7 +50,7 @@ TEST_CASE("a marker that does not lie on a face is refused where its type stands
   const std::string where = "types.yaml:2: object_types[0], marker 3 of 4X4_50";
   const FileKnowledgeBase above = cube("size_m: 0.04, pose: {translation_m: [0, 0, 0.03]}");
   expect_refused([&] { ObjectLooks().of(above.types()[0]); }, where, {"from the nearest face"});
-  const FileKnowledgeBase large = cube("size_m: 0.06, face: +z");
+  const FileKnowledgeBase large = cube("size_m: 0.04, pose: {translation_m: [0.01, 0, 0.025]}");
   expect_refused([&] { ObjectLooks().of(large.types()[0]); }, where, {"beyond the face's edge"});
 }
 

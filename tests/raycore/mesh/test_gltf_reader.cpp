@@ -90,7 +90,7 @@ TEST_CASE("a glTF stands upright, from a file beside it, from its own text, or f
   CHECK(corners_of(read_gltf_of(sample(), {0.001, {}}))[1] == std::array{0.f, 0.f, 0.001f});
 }
 
-TEST_CASE("nodes of a glTF move their meshes and those below them; mirrors turn faces over") {
+TEST_CASE("nodes of a glTF move their meshes and those below them, and mirrors turn faces over") {
   const Json json =
       changed({{"/nodes", Json::parse(R"([{"children": [1], "translation": [10, 0, 0]},
       {"mesh": 0, "rotation": [0, 0.70710678, 0, 0.70710678], "scale": [2, 1, 1]}])")}});

@@ -148,7 +148,7 @@ TEST_CASE("OpenCV's other keys and JSON") {
             .none());
 }
 
-TEST_CASE("large calibrations are read; deep ones and long ones of nothing end at once") {
+TEST_CASE("large calibrations are read, deep ones and long ones of nothing end at once") {
   std::string large = calibration_yaml(Lens(kCalibrated, {0.1})) + "image_points: [";
   while (large.size() < (3u << 20)) large += "123.456, 78.9,\n  ";
   CHECK(read_as("camera.yml", large + "1]\n").distortion() == Distortion{0.1});

@@ -33,7 +33,7 @@ bool says(const std::string& text, const char* words) {
 
 }  // namespace
 
-TEST_CASE("objects on a table stay; none is thrown out by what is right") {
+TEST_CASE("objects on a table stay, and none is thrown out by what is right") {
   Random random(2);
   for (std::uint32_t scene = 0; scene < scene_count(15); ++scene) {
     CAPTURE(scene);
@@ -137,7 +137,7 @@ TEST_CASE("an object that would hide a marker of the board is not reported") {
 TEST_CASE("a marker that is larger than its object is refused") {
   ObjectType type = marked_box("small", {0.04, 0.04, 0.04}, 0);
   std::get<Marker>(type.features[2].geometry).size_m = 0.06;
-  expect_error(ErrorCode::bad_input, "small.features[2]", "sticks out of its object",
+  expect_error(ErrorCode::bad_input, "small.features[2]", "larger than the face that carries it",
                [&] { MemoryKnowledgeBase({type}); });
 }
 

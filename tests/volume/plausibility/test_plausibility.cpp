@@ -106,6 +106,7 @@ TEST_CASE("poses the wrong way round, with other axes or in another unit are nam
     };
     Cell inverted(seed), opengl(seed), both(seed), metres(seed), large(seed);
     inverted.change_poses([](const Pose& pose) { return pose.inverse(); });
+    CAPTURE(inverted.finding());
     CHECK(says(inverted.finding(), "camera-to-world poses were given where world-to-camera"));
     opengl.change_poses(turned);
     CHECK(says(opengl.finding(), "OpenGL's axes"));
@@ -186,8 +187,12 @@ TEST_CASE("cameras inside solids and objects of another unit are named") {
   cell.world.objects = {box_at("away", {0.1, 0.1, 0.1}, {100, 0, 0})};
   CHECK(says(cell.finding(), "in millimetres"));
   cell.world.objects.clear();
-  CHECK(says(implausibilities(cell.world, Box({-300, -300, 0}, {300, 300, 300}), 10).front(),
-             "are these millimetres?"));
+  bool named = false;
+  for (const auto& finding :
+       implausibilities(cell.world, Box({-300, -300, 0}, {300, 300, 300}), 10)) {
+    named = named || says(finding, "are these millimetres?");
+  }
+  CHECK(named);
 }
 
 }  // namespace vantage

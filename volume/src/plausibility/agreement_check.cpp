@@ -46,23 +46,29 @@ Common seen_through(const SampledCamera& measuring, const PinholeCamera& from,
   return common;
 }
 
-/// For each camera, all that it measures against all others' readings and the other way round; the
-/// poses are read as `reading` says.
-std::vector<Common> contradictions(const std::vector<SampledCamera>& cameras,
-                                   const PoseReading* reading, const Box& work_area) {
+/// A camera against all others: what they see through of what it measures, and the other way round.
+/// One that is wrong measures a surface where the others see none, or sees through theirs.
+struct Contradiction {
+  Common measuring, judging;
+  double share() const { return std::max(measuring.share(), judging.share()); }
+};
+
+/// Of each camera; the poses are read as `reading` says.
+std::vector<Contradiction> contradictions(const std::vector<SampledCamera>& cameras,
+                                          const PoseReading* reading, const Box& work_area) {
   const Box near_area = grown(work_area, 0.1);
   std::vector<PinholeCamera> posed;
   for (const SampledCamera& camera : cameras) {
     const PinholeCamera& given = camera.camera->camera;
     posed.push_back(reading ? given.moved_to(reading->of(given.T_world_cam())) : given);
   }
-  std::vector<Common> of_camera(cameras.size());
+  std::vector<Contradiction> of_camera(cameras.size());
   for (std::size_t a = 0; a < cameras.size(); ++a) {
     for (std::size_t b = 0; b < cameras.size(); ++b) {
       if (a == b || !cameras[a].camera->depth || !cameras[b].camera->depth) continue;
       const Common common = seen_through(cameras[a], posed[a], cameras[b], posed[b], near_area);
-      of_camera[a].add(common);
-      of_camera[b].add(common);
+      of_camera[a].measuring.add(common);
+      of_camera[b].judging.add(common);
     }
   }
   return of_camera;
@@ -73,7 +79,7 @@ std::string cause_of(const std::vector<SampledCamera>& cameras, const Box& work_
   std::vector<const SampledCamera*> all;
   for (const SampledCamera& camera : cameras) all.push_back(&camera);
   const PoseReading* reading = better_reading(all, work_area);
-  const auto agrees = [](const Common& common) { return common.share() < kSolved; };
+  const auto agrees = [](const Contradiction& camera) { return camera.share() < kSolved; };
   if (reading && std::ranges::all_of(contradictions(cameras, reading, work_area), agrees)) {
     return fmt::format("they agree if {}", reading->cause);
   }
@@ -84,8 +90,8 @@ std::string cause_of(const std::vector<SampledCamera>& cameras, const Box& work_
 
 void check_agreement(const std::vector<SampledCamera>& cameras, const Box& work_area,
                      Findings& findings) {
-  const std::vector<Common> all = contradictions(cameras, nullptr, work_area);
-  const auto worst = std::ranges::max_element(all, {}, &Common::share);
+  const std::vector<Contradiction> all = contradictions(cameras, nullptr, work_area);
+  const auto worst = std::ranges::max_element(all, {}, &Contradiction::share);
   if (worst == all.end() || worst->share() < kContradicted) return;
   const std::string who = cameras.size() == 2
                               ? fmt::format("images {} and {} contradict each other",

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -16,14 +17,14 @@ constexpr std::size_t kFewCameras = 8;
 /// Poses by which the images show little of the work area and measure next to nothing in it, while
 /// by another reading of the same numbers they do.
 std::string misread_poses(const std::vector<const SampledCamera*>& cameras, const Box& work_area) {
-  constexpr double kNextToNothing = 0.03, kMuch = 0.2;
+  constexpr double kLittle = 0.1, kMuch = 0.2, kTimes = 4;
   const AreaFit given = fit_of(cameras, nullptr, work_area);
   const PoseReading* reading = better_reading(cameras, work_area);
-  if (reading == nullptr || given.measured > kNextToNothing) return {};
+  if (reading == nullptr || given.measured > kLittle) return {};
   const AreaFit meant = fit_of(cameras, reading, work_area);
-  if (meant.measured < kMuch || meant.score() < 5 * given.score()) return {};
+  if (meant.measured < std::max(kMuch, kTimes * given.measured)) return {};
   return fmt::format(
-      "next to nothing is measured in the work area ({:.1g} % of the readings lie "
+      "little is measured in the work area ({:.2g} % of the readings lie "
       "there): {:.0f} % would if {}",
       100 * given.measured, 100 * meant.measured, reading->cause);
 }
@@ -68,7 +69,7 @@ void check_views(const std::vector<SampledCamera>& cameras, const Box& work_area
 namespace vantage {
 
 std::string resolution_misfit(const Intrinsics& k) {
-  constexpr double kOff = 0.2, kCentred = 0.06;  // of the image's size
+  constexpr double kOff = 0.12, kCentred = 0.06;  // of the image's size
   const auto off = [&](double factor) {
     return std::max(std::abs(factor * k.cx - 0.5 * (k.width - 1)) / k.width,
                     std::abs(factor * k.cy - 0.5 * (k.height - 1)) / k.height);
