@@ -46,9 +46,15 @@ void add_output_options(CLI::App& verb, PlanCommandOptions& options) {
           "Write overview.png, and what each suggested camera would see: view.png, view_2.png …")
       ->needs(verb.get_option("--output"))
       ->group("Output");
+}
+
+/// Without pictures these change nothing; the plan is the same, so that a word is enough.
+std::vector<std::string> idle_picture_options(const CLI::App& verb, bool pictures) {
+  std::vector<std::string> idle;
   for (const char* option : {"--picture-quality", "--picture-width"}) {
-    verb.get_option(option)->needs("--pictures");
+    if (!pictures && verb.get_option(option)->count() > 0) idle.emplace_back(option);
   }
+  return idle;
 }
 
 ExitCode plan(const PlanCommandOptions& options) {
@@ -77,7 +83,15 @@ void add_plan_command(CLI::App& app, Action& action) {
   add_planning_options(*verb, *options);
   add_output_options(*verb, *options);
   verb->footer(kExamples);
-  verb->parse_complete_callback([&action, options] { action = [=] { return plan(*options); }; });
+  verb->parse_complete_callback([&action, options, verb] {
+    const auto idle = idle_picture_options(*verb, options->common.output.pictures);
+    action = [=] {
+      for (const std::string& option : idle) {
+        spdlog::warn("{} does nothing without --pictures", option);
+      }
+      return plan(*options);
+    };
+  });
 }
 
 }  // namespace vantage

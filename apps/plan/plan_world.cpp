@@ -131,11 +131,11 @@ void use_file(const BopScene& scene, const Workcell& workcell, const fs::path& f
 }
 
 /// Of options that say how to find objects, where none are to be found.
-void refuse_unused_search(const ReconstructCommandOptions& how) {
+void refuse_unused_search(const ReconstructCommandOptions& how, bool by_board) {
   const std::string needs = "--objects pnp, voting or svd";
   const ReconstructCommandOptions usual;
-  refuse_unused(how.cameras == "board", false, "--cameras board", needs);
-  refuse_unused(!how.features.empty(), false, "--features", needs);
+  refuse_unused(how.cameras == "board", by_board, "--cameras board", needs);
+  refuse_unused(!how.features.empty(), by_board, "--features", needs);
   refuse_unused(how.inlier_px != usual.inlier_px, false, "--inlier-px", needs);
   refuse_unused(how.no_ambiguous, false, "--no-ambiguous", needs);
 }
@@ -154,13 +154,13 @@ PlanWorld load_plan_world(const fs::path& dataset, const std::vector<int>& image
                                  : plan.objects;
   plan.world.static_structures = known(workcell.static_structures);
   if (plan.objects == "given") {
-    refuse_unused_search(source.how);
+    refuse_unused_search(source.how, workcell.board.has_value());
     use_given(scene, workcell, options.observe, stop, plan);
   } else if (is_method(method)) {
     options.method = reconstruction_method_of(method);
     use_reconstruction(scene, workcell, options, stop, plan);
   } else {
-    refuse_unused_search(source.how);
+    refuse_unused_search(source.how, false);
     use_file(scene, workcell, plan.objects, plan);
   }
   return plan;

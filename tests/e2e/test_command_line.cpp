@@ -50,7 +50,6 @@ TEST_CASE("options that do nothing without another one are refused with both nam
         std::tuple("--servo-width 64 --servo 0", "--servo-width", "--servo"),
         std::tuple("--filter-edge 0.1 --filter off", "--filter-edge", "--filter"),
         std::tuple("--ring-step 0.1", "--ring-step", "--rings"),
-        std::tuple("--picture-width 100", "--picture-width", "--pictures"),
         std::tuple("--inlier-px 2 --objects given", "--inlier-px", "--objects"),
         std::tuple("--cameras board", "--cameras", "--objects")}) {
     CAPTURE(options);
@@ -67,6 +66,13 @@ TEST_CASE("with the other one they are fine, wherever that is said") {
   expect_exit(plan_with(folder, "--workcell" + test::quoted(folder / "cell.yaml") +
                                     " --from 0 0 2 --least-gain 0.0001"),
               0, {"next view"});
+}
+
+TEST_CASE("options of pictures without pictures change nothing, and that is said") {
+  const TemporaryFolder folder;
+  test::write_scene(folder);
+  expect_exit(plan_with(folder, kArea + std::string(" --picture-width 700")), 0,
+              {"--picture-width does nothing without --pictures"});
 }
 
 TEST_CASE("a number may begin with a dot") {

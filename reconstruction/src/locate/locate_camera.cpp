@@ -195,12 +195,15 @@ void doubt(const Lens& lens, const SeenBoard& seen, const BoardFit& best,
   }
   const auto residuals = reconstruction::detail::residual_cause(lens, seen.pairs, best);
   if (!residuals) return;
-  constexpr double kNotable = 3;  // real lenses and prints are never quite as they should be
+  // Real lenses and prints are never quite as they should be, and noise is stated too small at
+  // times.
+  constexpr double kNotable = 3, kNotable_px = 0.3;
   // The corners of one marker err together: they count as one.
   constexpr double kCornersOfMarker = 4;
   if (residuals->cause.empty()) location.pose->covariance *= kCornersOfMarker;
   if (!residuals->cause.empty()) widen(*location.pose, residuals->T_cam_world.inverse());
   if (residuals->noise_ratio < kNotable) return;
+  if (residuals->cause.empty() && location.pose->rms_px < kNotable_px) return;
   const std::string text = fmt::format(
       "the residuals are {:.1f} times the corners' noise: {}", residuals->noise_ratio,
       residuals->cause.empty() ? "check the calibration, and the board's sizes and flatness"

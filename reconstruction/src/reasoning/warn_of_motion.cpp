@@ -10,8 +10,9 @@
 namespace vantage {
 namespace {
 
-constexpr double kNotNoise = 4;     ///< times the noise of the observations
-constexpr double kMostOfIt = 0.35;  ///< of the residual may be left without the odd image
+constexpr double kNotNoise = 4;       ///< times the noise of the observations
+constexpr double kNotable_px = 0.75;  ///< a fit of a blurred or distorted marker is off by less
+constexpr double kMostOfIt = 0.35;    ///< of the residual may be left without the odd image
 
 /// The residuals in units of the observations' noise.
 double noise_ratio(const ReconstructedObject& object, std::span<const CameraView> views) {
@@ -80,7 +81,10 @@ void warn_of_motion(std::span<const CameraView> views, const KnowledgeBase& know
                     Reconstruction& result) {
   for (ReconstructedObject& object : result.objects) {
     const std::set<std::size_t> seeing = views_of(object);
-    if (seeing.size() < 2 || noise_ratio(object, views) < kNotNoise) continue;
+    if (seeing.size() < 2 || object.rms_px < kNotable_px ||
+        noise_ratio(object, views) < kNotNoise) {
+      continue;
+    }
     std::optional<Motion> best;
     for (const std::size_t view : seeing) {
       if (stop.stop_requested()) return;

@@ -16,6 +16,9 @@ constexpr double kVoxelShare = 0.1;
 
 /// Between a coordinate and the next float.
 double float_step(double coordinate) {
+  if (std::abs(coordinate) >= double(std::numeric_limits<float>::max())) {
+    return std::abs(coordinate) * double(std::numeric_limits<float>::epsilon());
+  }
   const float from = std::abs(float(coordinate));
   return double(std::nextafter(from, std::numeric_limits<float>::infinity())) - double(from);
 }
