@@ -9,6 +9,8 @@
 #include "cli/shared_options.hpp"
 #include "cli/signal_handler.hpp"
 #include "cli/workers.hpp"
+#include "options/command_line.hpp"
+#include "options/volume_fields.hpp"
 #include "plan/plan_input.hpp"
 #include "plan/plan_options.hpp"
 #include "process/result_output.hpp"
@@ -67,7 +69,9 @@ void add_validate_command(CLI::App& app, Action& action) {
       "nothing is odd, 3 if something is");
   const auto command = std::make_shared<ValidateCommand>();
   add_input_options(*verb, command->plan);
-  add_volume_options(*verb, command->plan);
+  Workcell defaults{.work_area = Box({0, 0, 0}, {1, 1, 1})};
+  const FieldGroup volume{"", "Work area", {voxel_size_field(defaults.voxel_size_m)}, {}};
+  add_fields(*verb, volume, command->plan.given);
   add_object_options(*verb, command->plan.objects);
   add_json_flag(*verb, command->json, "the findings");
   add_threads_option(*verb, command->threads);
