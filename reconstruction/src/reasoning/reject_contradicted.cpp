@@ -140,9 +140,23 @@ class Judge {
   std::vector<std::shared_ptr<const Scene>> solids_;
 };
 
-void reject(const ReconstructedObject& object, const std::string& reason, Reconstruction& result) {
-  for (const Support& support : object.support) {
-    result.unexplained.push_back({support.id, reason});
+/// Objects of the same type as one that cannot be, which another size of the type brings together
+/// with it, are no more there than that one.
+void spread(std::span<const CameraView> views, const Reconstruction& result,
+            std::vector<std::string>& reasons) {
+  std::vector<const ReconstructedObject*> all;
+  for (const ReconstructedObject& object : result.objects) all.push_back(&object);
+  const std::vector<std::string> found = reasons;
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    if (found[i].empty()) continue;
+    const auto size = reconstruction::detail::fitting_size(views, all, all[i]->type);
+    if (!size) continue;
+    reasons[i] += size->text;
+    for (std::size_t k = 0; k < found.size(); ++k) {
+      const bool doubtful = found[k].empty() && all[k]->type == all[i]->type &&
+                            reconstruction::detail::comes_there(views, *all[k], *size);
+      if (doubtful) reasons[k] = "its sizes do not fit" + size->text;
+    }
   }
 }
 
@@ -155,20 +169,15 @@ void reject_contradicted(std::span<const CameraView> views, const SceneKnowledge
   for (const ReconstructedObject& object : result.objects) {
     reasons.push_back(judge.objection(object, result.objects));
   }
-  std::vector<const ReconstructedObject*> rejected;
-  for (std::size_t i = 0; i < reasons.size(); ++i) {
-    if (!reasons[i].empty()) rejected.push_back(&result.objects[i]);
-  }
-  if (rejected.empty()) return;
+  spread(views, result, reasons);
   std::vector<ReconstructedObject> kept;
   for (std::size_t i = 0; i < reasons.size(); ++i) {
-    if (reasons[i].empty()) {
-      kept.push_back(result.objects[i]);
-      continue;
+    const ReconstructedObject& object = result.objects[i];
+    if (reasons[i].empty()) kept.push_back(object);
+    if (reasons[i].empty()) continue;
+    for (const Support& support : object.support) {
+      result.unexplained.push_back({support.id, reasons[i]});
     }
-    const std::string size =
-        reconstruction::detail::fitting_size(views, rejected, result.objects[i].type);
-    reject(result.objects[i], reasons[i] + size, result);
   }
   result.objects = std::move(kept);
   std::ranges::stable_sort(result.unexplained, {}, &Unexplained::id);

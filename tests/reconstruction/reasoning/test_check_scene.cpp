@@ -85,6 +85,7 @@ TEST_CASE(
   }
   MESSAGE("named in ", named, " of ", scenes, "; ", kept, " objects kept");
   CHECK(named >= 0.8 * scenes);
+  CHECK(kept <= scenes / 10);
 }
 
 TEST_CASE("an object that moved between two pictures is warned of, with the odd picture") {
