@@ -106,9 +106,11 @@ run(_ ${configure} -S "${CMAKE_CURRENT_LIST_DIR}/project" -B "${work}/build"
 run(build_output "${CMAKE_COMMAND}" --build "${work}/build" --verbose)
 check_link_line("${build_output}")
 check_loads_from_prefix("${work}/build/consumer")
-check_loads_from_prefix("${prefix}/bin/vantage")
+file(GLOB command "${prefix}/*/vantage/vantage-command")  # what bin/vantage becomes
+check_loads_from_prefix("${command}")
 run(printed "${work}/build/consumer")
 message("${printed}")
+run(_ "${prefix}/bin/vantage" plan --help)
 run(printed "${prefix}/bin/vantage" --version)
 message("${printed}")
 

@@ -108,6 +108,12 @@ FILE* fopen_with(const char* name, const char* path, const char* mode) {
 
 extern "C" {
 
+/// `new (std::nothrow)`, mangled. valijson takes memory so and does not look whether it got any:
+/// these never fail here, as nothing of ours could be done about it.
+void* _ZnwmRKSt9nothrow_t(size_t size, const void*) {
+  return __libc_malloc(size > 0 ? size : 1);
+}
+
 void* malloc(size_t size) {
   if (!fails("malloc")) return __libc_malloc(size);
   errno = ENOMEM;
