@@ -23,7 +23,9 @@ TEST_CASE("validate: nothing is odd about a recording that fits, with exit code 
   CHECK(validate(scene, " --json").json()["findings"].empty());
 }
 
-TEST_CASE("validate: a depth scale and poses that do not fit are named with exit code 3, and plan warns") {
+TEST_CASE(
+    "validate: a depth scale and poses that do not fit are named with exit code 3, and plan "
+    "warns") {
   const test::TemporaryFolder folder;
   const auto scene = test::write_scene(folder);
   nlohmann::json entry = test::scene_camera();

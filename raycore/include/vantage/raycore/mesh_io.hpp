@@ -28,11 +28,11 @@ struct MeshFileFrame {
 /// materials, skins and morph targets are left.
 ///
 /// Up: STL, PLY, OBJ, OFF, 3DS and 3MF keep their coordinates (z is up). glTF is y-up by its
-/// standard and is stood upright: (x, y, z) becomes (x, -z, y). A DAE says it itself (<up_axis>,
+/// standard and is stood upright: (x, y, z) becomes (x, -z, y). A DAE says it itself (up_axis,
 /// y if it says nothing), and an FBX. `frame.up` overrides what the file says.
 ///
 /// Unit: coordinates are multiplied by `unit_m`. Those of a DAE are in metres before that, by its
-/// <unit meter="…">; no other format's own unit is used.
+/// unit element; no other format's own unit is used.
 ///
 /// Files that a mesh names (a .gltf's buffers) are read only if they are regular files in the
 /// mesh's folder or below it. What is odd but harmless is in the mesh's `remarks`. May be called
