@@ -131,7 +131,7 @@ TEST_CASE("random points appear where OpenCV's fisheye lens has them, up to 85°
     CHECK((xy.homogeneous().normalized() - p).norm() < 1e-12);
   }
   expect_bad_input("distortion", "pixel (0.0, 0.0) looks more than 85° off the optical axis",
-                   [&] { lens.sight(0, 0, {}); });
+                   [&] { lens.sight(0, 0, Eigen::Vector2d::Zero()); });
   ColorSensor sensor;
   sensor.distortion = d;
   const SimulatedScene scene({picture_body(1, 1, ColorImage(1, 1))});
