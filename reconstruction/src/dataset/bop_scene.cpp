@@ -92,6 +92,19 @@ std::optional<Pose> read_pose(const Entry& entry) {
   return Pose::from_rotation(R_cam_world, t_cam_world, entry.where("cam_R_w2c")).inverse();
 }
 
+/// The principal point of a cropped image may lie outside of it; but not where the middle of a
+/// larger image of the same shape is.
+void refuse_other_size(const Intrinsics& k, const std::string& where) {
+  constexpr double kAlike = 0.01;
+  if (k.cx <= k.width || k.cy <= k.height) return;
+  const double across = k.width / (2 * k.cx + 1), down = k.height / (2 * k.cy + 1);
+  if (std::abs(across - down) > kAlike * down) return;
+  throw bad_input(where, fmt::format("the principal point ({}, {}) lies outside the image of {} x "
+                                     "{} pixels, in the middle of a larger one: depth and "
+                                     "intrinsics of different size; scale cam_K by {:.4g}",
+                                     k.cx, k.cy, k.width, k.height, down));
+}
+
 Intrinsics read_intrinsics(const Entry& entry, ImageSize size) {
   const std::array<double, 9> k = entry.numbers<9>("cam_K");
   const std::string where = entry.where("cam_K");
@@ -101,7 +114,8 @@ Intrinsics read_intrinsics(const Entry& entry, ImageSize size) {
                                        excerpt(json(k))));
   }
   const Intrinsics intrinsics{size.width, size.height, k[0], k[4], k[2], k[5]};
-  intrinsics.check(where);  // the principal point of a cropped image may lie outside of it
+  intrinsics.check(where);
+  refuse_other_size(intrinsics, where);
   return intrinsics;
 }
 
