@@ -25,9 +25,11 @@ ReconstructedObject object_of(const Candidate& candidate) {
   const PoseHypothesis& best = candidate.best();
   const CanonicalPose canonical = canonical_pose(best);
   ReconstructedObject object{best.type(), canonical.T_world_object};
-  object.covariance =
-      moved_origin(candidate.voted_hypotheses.front().covariance,
-                   canonical.T_world_object.translation() - best.T_world_object.translation());
+  const FinalFit& fit = candidate.voted_hypotheses.front();
+  const Eigen::Vector3d arm =
+      canonical.T_world_object.translation() - best.T_world_object.translation();
+  object.covariance = moved_origin(fit.covariance, arm);
+  object.noise_covariance = moved_origin(fit.noise, arm);
   object.probability = candidate.there * candidate.shares.front();
   double squared_px = 0;
   std::size_t points = 0;

@@ -50,18 +50,20 @@ Pose robust_pose(const PoseHypothesis& hypothesis) {
 
 /// The residuals of a view's correspondences, one below the other, with their derivatives.
 struct ViewResiduals {
-  Eigen::VectorXd residual, sigma;
+  Eigen::VectorXd residual, sigma, noise;  ///< `noise`: of sigma, what is new in every picture
   Eigen::Matrix<double, Eigen::Dynamic, 6> by_object, by_camera;
 
-  void add(const Eigen::VectorXd& r, double s, const Eigen::MatrixXd& object,
+  void add(const Eigen::VectorXd& r, double s, double n, const Eigen::MatrixXd& object,
            const Eigen::MatrixXd& camera) {
     const Eigen::Index before = residual.size(), rows = r.size();
     residual.conservativeResize(before + rows);
     sigma.conservativeResize(before + rows);
+    noise.conservativeResize(before + rows);
     by_object.conservativeResize(before + rows, 6);
     by_camera.conservativeResize(before + rows, 6);
     residual.tail(rows) = r;
     sigma.tail(rows).setConstant(s);
+    noise.tail(rows).setConstant(n);
     by_object.bottomRows(rows) = object;
     by_camera.bottomRows(rows) = camera;
   }
@@ -76,8 +78,8 @@ void add_points(const Correspondence& correspondence, const Pose& T_world_object
     r.segment<2>(2 * Eigen::Index(i)) =
         correspondence.measurement->lens->project(p) - term.pixels[i];
   }
-  residuals.add(r, std::hypot(term.sigma_px, model_px), jacobian(term, T_world_object),
-                camera_jacobian(term, T_world_object));
+  residuals.add(r, std::hypot(term.sigma_px, model_px), term.sigma_px,
+                jacobian(term, T_world_object), camera_jacobian(term, T_world_object));
 }
 
 void add_pose(const Correspondence& correspondence, const Pose& T_world_object,
@@ -94,13 +96,13 @@ void add_pose(const Correspondence& correspondence, const Pose& T_world_object,
   const Eigen::Vector3d& camera = correspondence.measurement->view->T_world_cam->translation();
   const Eigen::Matrix<double, 3, 6> camera_move =
       -carried_along(term.T_ref_feature.translation() - camera).topRows<3>();
-  residuals.add(t, term.sigma_m, move, camera_move);
-  residuals.add(r, term.sigma_rad, turn, -turn);
+  residuals.add(t, term.sigma_m, term.sigma_m, move, camera_move);
+  residuals.add(r, term.sigma_rad, term.sigma_rad, turn, -turn);
 }
 
-/// JᵀS⁻¹J, JᵀS⁻¹r and rᵀS⁻¹r.
+/// JᵀS⁻¹J, JᵀS⁻¹r and rᵀS⁻¹r; and JᵀS⁻¹NS⁻¹J with the noise N of the observations alone.
 struct Normal {
-  Matrix6d information = Matrix6d::Zero();
+  Matrix6d information = Matrix6d::Zero(), noise = Matrix6d::Zero();
   Vector6d gradient = Vector6d::Zero();
   double chi_square = 0;
 };
@@ -123,7 +125,9 @@ Normal normal_equations(const PoseHypothesis& hypothesis, double model_px) {
     Eigen::MatrixXd s = v.by_camera * cameras[view]->covariance * v.by_camera.transpose();
     s.diagonal() += v.sigma.cwiseAbs2();
     const Eigen::LLT<Eigen::MatrixXd> solver(s);
-    normal.information += v.by_object.transpose() * solver.solve(v.by_object);
+    const Eigen::Matrix<double, Eigen::Dynamic, 6> weighted = solver.solve(v.by_object);
+    normal.information += v.by_object.transpose() * weighted;
+    normal.noise += weighted.transpose() * v.noise.cwiseAbs2().asDiagonal() * weighted;
     normal.gradient += v.by_object.transpose() * solver.solve(v.residual);
     normal.chi_square += v.residual.dot(solver.solve(v.residual));
   }
@@ -195,7 +199,9 @@ FinalFit generalized_least_squares(PoseHypothesis hypothesis) {
     normal = normal_equations(hypothesis, model_px);
   }
   weigh_again(hypothesis);
-  FinalFit fit{std::move(hypothesis), {}, chi_square, freedom};
+  FinalFit fit{std::move(hypothesis), {}, {}, chi_square, freedom};
+  const Matrix6d all = covariance_of(normal.information);
+  fit.noise = all * normal.noise * all;
   fit.covariance = covariance_of(without_symmetric_turns(fit.hypothesis, normal.information));
   const double ratio = normal.chi_square / std::max(1, freedom);  // of measured poses, above all
   if (freedom > 0 && ratio > unlikely_ratio(freedom)) fit.covariance *= ratio;

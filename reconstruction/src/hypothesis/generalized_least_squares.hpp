@@ -8,6 +8,7 @@ namespace vantage::reconstruction::detail {
 struct FinalFit {
   PoseHypothesis hypothesis;  ///< its evidence with the observations' own standard deviations
   Matrix6d covariance = Matrix6d::Zero();
+  Matrix6d noise = Matrix6d::Zero();  ///< the part of it that the observations' noise makes
   double chi_square = 0;
   int degrees_of_freedom = 0;
 };

@@ -9,6 +9,7 @@
 #include <numeric>
 #include <set>
 
+#include "hypothesis/expected_markers.hpp"
 #include "vantage/raycore/advanced/scene_builder.hpp"
 
 namespace vantage::reconstruction::detail {
@@ -99,11 +100,7 @@ void reject_misidentified(std::vector<Candidate>& candidates, const InlierThresh
 
 namespace {
 
-constexpr double kMissed = 0.2, kHidden = 0.15;
-constexpr double kMinSidePx = 30;   // smaller markers may well not be found
-constexpr double kMinFacing = 0.5;  // sine of the angle between the marker and the sight
-constexpr double kBorderPx = 10;    // white around it has to be in the image too
-constexpr double kAboveM = 0.002;   // rays start in front of the marker, not in it
+constexpr double kMissed = kMarkerMissed, kHidden = kViewHidden;
 
 bool is_weak(const PoseHypothesis& object) {
   return object.correspondences.front()->measurement->id.view ==
@@ -120,56 +117,13 @@ std::shared_ptr<const Scene> scene_of(const std::vector<Candidate>& candidates) 
   return builder.build();
 }
 
-/// A view with what its image promises.
-class Watcher {
- public:
-  Watcher(const CameraView& view, const Scene& scene)
-      : view_(view), lens_(view.lens), scene_(scene), T_cam_world_(view.T_world_cam->inverse()) {}
-
-  /// Whether this view should see the marker of an object at this pose.
-  bool expects(const Marker& marker, const Pose& T_world_object) const {
-    const Pose T_world_marker = T_world_object * marker.T_object_marker;
-    const Eigen::Vector3d& eye = view_.T_world_cam->translation();
-    const Eigen::Vector3d normal = T_world_marker.rotation().col(2);
-    const Eigen::Vector3d sight = (eye - T_world_marker.translation()).normalized();
-    if (!(normal.dot(sight) > kMinFacing)) return false;
-    const auto corners = marker.corners();
-    std::array<Eigen::Vector2d, 4> pixels;
-    for (std::size_t i = 0; i < 4; ++i) {
-      const Eigen::Vector3d p = T_cam_world_ * (T_world_object * corners[i]);
-      if (!is_before(p)) return false;
-      pixels[i] = lens_.project(p);
-      if (!inside(pixels[i])) return false;
-    }
-    for (std::size_t i = 0; i < 4; ++i) {
-      if ((pixels[(i + 1) % 4] - pixels[i]).norm() < kMinSidePx) return false;
-    }
-    return std::none_of(corners.begin(), corners.end(), [&](const Eigen::Vector3d& corner) {
-      const Eigen::Vector3d start = T_world_object * corner + kAboveM * normal;
-      return scene_.occluded(start.cast<float>(), eye.cast<float>());
-    });
-  }
-
- private:
-  bool inside(const Eigen::Vector2d& pixel) const {
-    const Intrinsics& k = view_.lens.intrinsics();
-    return pixel.x() > kBorderPx && pixel.y() > kBorderPx && pixel.x() < k.width - 1 - kBorderPx &&
-           pixel.y() < k.height - 1 - kBorderPx;
-  }
-
-  const CameraView& view_;
-  const WideLens lens_;
-  const Scene& scene_;
-  Pose T_cam_world_;
-};
-
 /// The logarithm of the probability that markers go unseen where they do.
 double log_of_unseen(const PoseHypothesis& object, std::span<const CameraView> views,
                      const Scene& scene) {
   double log_probability = 0;
   for (std::size_t v = 0; v < views.size(); ++v) {
     if (!views[v].T_world_cam || views[v].observations.empty()) continue;
-    const Watcher watcher(views[v], scene);
+    const ExpectedMarkers expected(views[v], scene);
     std::set<std::size_t> seen;
     for (const Correspondence* correspondence : object.correspondences) {
       if (correspondence->measurement->id.view == v) seen.insert(correspondence->feature->index);
@@ -179,7 +133,7 @@ double log_of_unseen(const PoseHypothesis& object, std::span<const CameraView> v
     for (std::size_t f = 0; f < features.size(); ++f) {
       const auto* marker = std::get_if<Marker>(&features[f].geometry);
       if (!marker || seen.contains(f)) continue;
-      if (watcher.expects(*marker, object.T_world_object)) ++unseen;
+      if (expected.sees(*marker, object.T_world_object)) ++unseen;
     }
     const double missed = std::pow(kMissed, unseen);
     log_probability += std::log(seen.empty() ? kHidden + (1 - kHidden) * missed : missed);

@@ -1,0 +1,27 @@
+#include "tracking/track.hpp"
+
+namespace vantage::reconstruction::detail {
+namespace {
+
+constexpr double kHides_s = 1;  ///< something unknown stays in the way for so long, on average
+constexpr double kMissedThere = 0.5;  ///< at least, where something of its shape is measured
+
+}  // namespace
+
+void MissingStreak::miss(int expected, bool something_there, double step_s) {
+  const double changes = 1 - std::exp(-step_s / kHides_s);
+  const double stays = (1 - changes) * hidden + kViewHidden * changes * clear;
+  const double comes = changes * hidden + (1 - kViewHidden * changes) * clear;
+  double missed = std::pow(kMarkerMissed, expected);
+  if (something_there) missed = std::max(missed, kMissedThere);
+  hidden = stays;
+  clear = comes * missed;
+}
+
+double log_of(const std::vector<MissingStreak>& streaks) {
+  double sum = 0;
+  for (const MissingStreak& streak : streaks) sum += std::log(streak.probability());
+  return sum;
+}
+
+}  // namespace vantage::reconstruction::detail
