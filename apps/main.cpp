@@ -44,7 +44,8 @@ void refuse_empty_values(const CLI::App& app) {
     if (option->count() == 0 || option->get_expected_max() == 0) continue;
     for (const std::string& value : option->results()) {
       if (!value.empty()) continue;
-      throw UsageError(option->get_name() + ": found an empty text; give a value, or leave it out");
+      throw UsageError(option->get_name() +
+                       ": found an empty value; give one, or leave the option out");
     }
   }
   for (const CLI::App* verb : app.get_subcommands()) refuse_empty_values(*verb);
@@ -96,10 +97,10 @@ ExitCode run_guarded(int argc, char** argv) {
     return used_up ? ExitCode::out_of_resources : ExitCode::bad_input;
   } catch (const std::exception& error) {
     if (const std::string resource = used_up_resource(error); !resource.empty()) {
-      spdlog::error("the system gives no more {}", resource);
+      spdlog::error("out of {}", resource);
       return ExitCode::out_of_resources;
     }
-    spdlog::error("this is a bug of vantage, please report it: {}", error.what());
+    spdlog::error("this is a bug in vantage, please report it: {}", error.what());
     return ExitCode::failure;
   }
 }

@@ -106,19 +106,20 @@ void use_reconstruction(const BopScene& scene, const Workcell& workcell,
 void use_file(const BopScene& scene, const Workcell& workcell, const fs::path& file,
               PlanWorld& plan) {
   if (!fs::exists(file)) {
-    throw bad_input("--objects",
-                    fmt::format("found {}; expected given, pnp, voting, svd, given+pnp "
-                                "or the like, or a world.json that is there",
-                                file.string()));
+    throw bad_input("--objects", fmt::format("found {}; expected given, pnp, voting, svd, a sum "
+                                             "such as given+pnp, or an existing world.json",
+                                             file.string()));
   }
   WorldFile world = read_world(file, *workcell.knowledge);
   plan.world.objects = std::move(world.objects);
   for (const BopImage& image : scene.images) {
     const auto found = world.T_world_cam.find(image.id);
     if (found == world.T_world_cam.end()) {
-      throw bad_input(file.string(), fmt::format("it says nothing of image {}; reconstruct the "
-                                                 "same images that are to be planned with",
-                                                 image.id));
+      throw bad_input(
+          file.string(),
+          fmt::format(
+              "it does not contain image {}; reconstruct the same images that you plan with",
+              image.id));
     }
     if (found->second) {
       plan.world.cameras.push_back(observer(image, *found->second));

@@ -102,22 +102,23 @@ ExitCode reconstruct_command(const ReconstructCommand& command) {
 
 void add_reconstruct_command(CLI::App& app, Action& action) {
   CLI::App* verb = app.add_subcommand(
-      "reconstruct", "Find the cameras and the known objects of a recording, by their features");
+      "reconstruct",
+      "Find the camera poses and the known objects of a recording by their features");
   const auto command = std::make_shared<ReconstructCommand>();
   verb->add_option("dataset", command->dataset,
-                   "BOP scene folder; or one with photographs, if there is a calibration")
+                   "BOP scene folder, or a folder of photographs with --calibration")
       ->required();
-  verb->add_option(
-          "--workcell", command->workcell,
-          "Workcell file (YAML) with knowledge_base or board, and board if cameras have no poses")
+  verb->add_option("--workcell", command->workcell,
+                   "Workcell file (YAML) with knowledge_base, board or both; the board is needed "
+                   "where cameras have no poses")
       ->option_text("FILE")
       ->required()
       ->group("Input");
   add_output_option(*verb, command->folder, "world.json and pictures");
   add_images_option(*verb, command->images);
   verb->add_option("--method", command->how.method,
-                   "pnp: one pose from the pixels of all cameras; voting: mixes kinds of features; "
-                   "svd: the baseline, single cameras' poses averaged")
+                   "pnp: one pose from the pixels of all cameras; voting: combines different kinds "
+                   "of features; svd: the baseline, which averages single cameras' poses")
       ->check(CLI::IsMember(kReconstructionMethods))
       ->capture_default_str()
       ->group("Known objects");

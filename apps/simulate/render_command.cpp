@@ -40,7 +40,7 @@ Subject load_subject(const fs::path& file) {
   Subject subject{file.stem().string(), load_workcell(file)};
   place_random_objects(subject.workcell);
   if (subject.workcell.cameras.empty()) {
-    throw bad_input(file.string() + ": cameras", "there are none to look through");
+    throw bad_input(file.string() + ": cameras", "there are no cameras to render");
   }
   return subject;
 }
@@ -124,17 +124,17 @@ ExitCode render(const RenderOptions& options) {
 
 void add_render_command(CLI::App& app, Action& action) {
   CLI::App* verb =
-      app.add_subcommand("render", "Photograph workcells: one camera's view, or a contact sheet");
+      app.add_subcommand("render", "Render workcells: one camera's view, or a contact sheet");
   const auto options = std::make_shared<RenderOptions>();
   verb->add_option("workcells", options->workcells, "Workcell files (YAML) with cameras")
       ->required();
-  verb->add_option("-o,--output", options->picture, "The picture: .png or .jpg")->required();
-  verb->add_option("--camera", options->camera, "The camera to look through; the first without");
+  verb->add_option("-o,--output", options->picture, "Picture to write: .png or .jpg")->required();
+  verb->add_option("--camera", options->camera, "Camera to render (default: the first)");
   verb->add_flag("--contact-sheet", options->contact_sheet,
-                 "All cameras of all workcells on one picture")
+                 "All cameras of all workcells in one picture")
       ->excludes("--camera");
   verb->add_option("--samples", options->samples,
-                   "Rays through each pixel; with --contact-sheet, of the thumbnails")
+                   "Rays per pixel; with --contact-sheet, per pixel of the thumbnails")
       ->check(CLI::Range(1, 4096))
       ->capture_default_str();
   add_threads_option(*verb, options->threads);

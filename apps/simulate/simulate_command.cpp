@@ -36,14 +36,14 @@ struct SimulateOptions {
 
 void add_random_options(CLI::App& verb, SimulateOptions& a) {
   SimulationOptions& s = a.settings;
-  verb.add_option("--seed", s.seed, "Random seed of the noise and of random objects");
+  verb.add_option("--seed", s.seed, "Random seed for the noise and the random objects");
   verb.add_option("--objects", s.objects,
                   "Number of objects to lay on the board at random, instead of the workcell's "
                   "random_objects")
       ->check(CLI::Range(0, 10000));
   verb.add_option("--types", s.types,
-                  "Types of the random objects, taken in turns, e.g. red_cube,duck; a name above "
-                  "others in the hierarchy is all of them, e.g. cube")
+                  "Types of the random objects, taken in turn, e.g. red_cube,duck; a parent in the "
+                  "hierarchy, e.g. cube, stands for all types below it")
       ->delimiter(',');
 }
 
@@ -68,10 +68,10 @@ void add_depth_options(CLI::App& verb, SimulateOptions& a) {
   double depth_scale_mm = RecordingOptions().depth_scale_mm;
   add_fields(verb, {"", heading, {depth_scale_field(depth_scale_mm)}, {fields_of(depth)}}, a.given);
   verb.add_flag("--no-second-imager", a.no_second_imager,
-                "Measure depth where the second imager does not see the surface, too")
+                "Measure depth also where the second imager cannot see the surface")
       ->group(expert_group(heading));
   verb.add_flag("--no-projector", a.no_projector,
-                "Measure depth where the projector's light does not reach, too")
+                "Measure depth also where the projector's light does not reach")
       ->group(expert_group(heading));
   verb.add_option("--max-incidence-deg", a.max_incidence_deg,
                   "Largest angle between a surface's normal and the ray that still gets a depth; "
@@ -142,10 +142,11 @@ ExitCode simulate(const SimulateOptions& options) {
 
 void add_simulate_command(CLI::App& app, Action& action) {
   CLI::App* verb = app.add_subcommand(
-      "simulate", "Record a workcell with simulated cameras, as a BOP scene folder with its truth");
+      "simulate",
+      "Record a workcell with simulated cameras, as a BOP scene folder with ground truth");
   const auto options = std::make_shared<SimulateOptions>();
   verb->add_option("workcell", options->workcell,
-                   "Workcell file (YAML) with cameras and what stands before them")
+                   "Workcell file (YAML) with cameras and the objects in front of them")
       ->required();
   add_output_option(*verb, options->folder, "the dataset")->required();
   add_random_options(*verb, *options);

@@ -63,10 +63,10 @@ ExitCode validate(const ValidateCommand& command) {
 }  // namespace
 
 void add_validate_command(CLI::App& app, Action& action) {
-  CLI::App* verb = app.add_subcommand(
-      "validate",
-      "Check whether a recording and a workcell fit together, and plan nothing: exit code 0 if "
-      "nothing is odd, 3 if something is");
+  CLI::App* verb =
+      app.add_subcommand("validate",
+                         "Check whether a recording and a workcell fit together, without planning: "
+                         "exit code 0 without findings, 3 with findings");
   const auto command = std::make_shared<ValidateCommand>();
   add_input_options(*verb, command->plan);
   Workcell defaults{.work_area = Box({0, 0, 0}, {1, 1, 1})};

@@ -95,7 +95,8 @@ ExitCode evaluate(const ExpectedGainCommandOptions& options) {
   std::vector<GainMethod> methods;
   for (const std::string& name : options.methods) methods.push_back(gain_method(name));
   const std::size_t count = options.cells.size() + std::size_t(options.random);
-  if (count == 0) throw bad_input("cells", "there are none; name workcells, or give --random N");
+  if (count == 0)
+    throw bad_input("cells", "there are no cells; name workcells, or give --random N");
   std::vector<CellGains> cells;
   Workers workers(options.threads);
   workers.execute([&] {
@@ -121,28 +122,28 @@ ExitCode evaluate(const ExpectedGainCommandOptions& options) {
 void add_evaluate_expected_gain(CLI::App& evaluate_verb, Action& action) {
   CLI::App* verb = evaluate_verb.add_subcommand(
       "expected-gain",
-      "What the methods' picks are expected to gain against what they really gain in simulated "
-      "cells, shipped and random ones, and against the best candidate");
+      "Compare what the methods' picks are expected to gain with what they really gain in "
+      "simulated cells, shipped and random ones, and with the best candidate");
   const auto options = std::make_shared<ExpectedGainCommandOptions>();
   verb->add_option("cells", options->cells,
                    "Workcell files, each with the cameras to use and their depth images: "
-                   "FILE[:CAMERA,...][+ideal|+noisy], e.g. wall.yaml:side; noisy without a word");
+                   "FILE[:CAMERA,...][+ideal|+noisy], e.g. wall.yaml:side (default: noisy)");
   verb->add_option(
           "--random", options->random,
-          "Number of random cells beside them: clutter and bins, known and unknown things, "
-          "with and without floor and walls, one to four cameras, other sensors")
+          "Number of additional random cells: clutter and bins, known and unknown objects, with "
+          "and without floor and walls, one to four cameras, different sensors")
       ->check(CLI::Range(0, 100000))
       ->capture_default_str();
-  verb->add_option("--seed", options->seed, "Random seed of the cells and of the cameras' noise")
+  verb->add_option("--seed", options->seed, "Random seed for the cells and for the cameras' noise")
       ->capture_default_str();
   verb->add_option("--methods", options->methods,
-                   "Which pick views: expected and bound (method voxel by either value), mesh, "
+                   "Methods to compare: expected and bound (method voxel with that --value), mesh, "
                    "shadow, shadowD3, light")
       ->delimiter(',')
       ->capture_default_str();
-  verb->add_flag(
-      "--no-oracle", options->no_oracle,
-      "Do not measure every feasible candidate: faster, but nothing is said of the best");
+  verb->add_flag("--no-oracle", options->no_oracle,
+                 "Do not measure every feasible candidate: faster, but without a comparison with "
+                 "the best one");
   VolumeOptions volume;
   ViewOptions views;
   add_fields(*verb, {"", "Planning", {}, {fields_of(volume), expected_gain_fields(views)}},

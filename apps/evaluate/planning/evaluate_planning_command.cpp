@@ -128,10 +128,9 @@ Json json_of(const PlanningResult& result, const PlanningCommandOptions& options
 std::vector<std::string> settings_text(const PlanningCommandOptions& options,
                                        const PlanningBenchmarkOptions& settings) {
   return {fmt::format(
-      "vantage {}, servo of {} iterations, {} of the best views polished, {}, run times: {} of {}.",
-      kVersion, settings.servo.iterations, settings.polish.views,
-      options.threads > 0 ? fmt::format("{} threads", options.threads)
-                          : "as many threads as the machine has",
+      "vantage {}, servo iterations: {}, polished views: {}, {}, run times: {} of {}.", kVersion,
+      settings.servo.iterations, settings.polish.views,
+      options.threads > 0 ? fmt::format("{} threads", options.threads) : "one thread per core",
       settings.repeat > 1 ? "medians" : "one run", settings.repeat)};
 }
 
@@ -181,8 +180,8 @@ ExitCode evaluate(const PlanningCommandOptions& options) {
 void add_evaluate_planning(CLI::App& evaluate_verb, Action& action) {
   CLI::App* verb = evaluate_verb.add_subcommand(
       "planning",
-      "The thesis' chapter 9 on simulated workcells: which views the methods pick, how good they "
-      "are by the voxel method and in truth, and how long it takes");
+      "Repeat the thesis' chapter 9 on simulated workcells: which views the methods pick, how good "
+      "they are by the voxel method and by the ground truth, and how long planning takes");
   const auto options = std::make_shared<PlanningCommandOptions>();
   options->add_to(*verb);
   verb->footer(kPlanningExamples);

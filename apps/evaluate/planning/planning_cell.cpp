@@ -45,9 +45,8 @@ std::vector<std::size_t> chosen_cameras(const PlanningCellName& name, const Work
   for (const CellCamera& camera : workcell.cameras) known.push_back(camera.name);
   if (known.empty()) {
     throw bad_input(name.workcell.string() + ": cameras",
-                    "there are none; without cameras nothing is seen and all is shadow. Expected "
-                    "at least one, e.g. \"- {name: front, eye_m: [0, -0.7, 0.4], target_m: [0, 0, "
-                    "0]}\"");
+                    "there are no cameras, so all of the work area is shadow; expected at least "
+                    "one, e.g. \"- {name: front, eye_m: [0, -0.7, 0.4], target_m: [0, 0, 0]}\"");
   }
   std::vector<std::size_t> chosen;
   for (const std::string& camera : name.cameras.empty() ? known : name.cameras) {

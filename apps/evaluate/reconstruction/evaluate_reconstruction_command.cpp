@@ -146,7 +146,7 @@ void add_disturbance_options(CLI::App& verb, ReconstructionEvaluationOptions& se
   verb.add_option("--wrong-ids", perturbation.wrong_ids,
                   "Share of the markers, the board's included, whose id is misread")
       ->check(number_between(0.0, 1.0));
-  verb.add_option("--seed", perturbation.seed, "Random seed of the perturbations")
+  verb.add_option("--seed", perturbation.seed, "Random seed for the perturbations")
       ->capture_default_str();
   verb.add_option("--trials", settings.trials, "Number of random perturbations of each subset")
       ->check(CLI::Range(1, 100000))
@@ -162,7 +162,8 @@ void add_subset_options(CLI::App& verb, EvaluationCommandOptions& arguments) {
                   "Numbers of cameras in a subset: 3, 2-9, or 2- for two and more")
       ->capture_default_str();
   verb.add_option("--subsets", arguments.subsets,
-                  "all, or only those that see every object that all cameras together see")
+                  "Subsets to evaluate; all; covering: only those that see every object that all "
+                  "cameras together see")
       ->check(CLI::IsMember({"all", "covering"}))
       ->capture_default_str();
   verb.add_option("--correct", arguments.settings.correct,
@@ -175,12 +176,13 @@ void add_subset_options(CLI::App& verb, EvaluationCommandOptions& arguments) {
 
 void add_evaluate_reconstruction(CLI::App& evaluate_verb, Action& action) {
   CLI::App* verb = evaluate_verb.add_subcommand(
-      "reconstruction", "Errors of the methods over all subsets of a recording's cameras");
+      "reconstruction", "Compare the methods' errors over all subsets of a recording's cameras");
   const auto arguments = std::make_shared<EvaluationCommandOptions>();
   verb->add_option("dataset", arguments->dataset, "BOP scene folder")->required();
   verb->add_option("--workcell", arguments->workcell,
-                   "Workcell file (YAML) with knowledge_base; of a simulated dataset its own "
-                   "workcell.yaml, which has the truth. Else that is the dataset's scene_gt.json")
+                   "Workcell file (YAML) with knowledge_base; for a simulated dataset its own "
+                   "workcell.yaml, which holds the ground truth. For other datasets the ground "
+                   "truth is scene_gt.json")
       ->required();
   add_output_option(*verb, arguments->folder, "reconstruction.json and reconstruction.svg");
   add_images_option(*verb, arguments->images);

@@ -107,7 +107,7 @@ ExitCode evaluate(const ReplayCommandOptions& arguments) {
 void add_replay_options(CLI::App& verb, ReplayCommandOptions& arguments) {
   ReplayBenchmarkOptions& settings = arguments.settings;
   verb.add_option("--methods", arguments.methods,
-                  "Methods, e.g. voxel,mesh,shadowD6; D and a number is the power of the depth")
+                  "Methods, e.g. voxel,mesh,shadowD6; D and a number set the depth power")
       ->delimiter(',')
       ->capture_default_str();
   verb.add_option("--pairs", settings.pairs, "Number of pairs of frames to plan from")
@@ -126,8 +126,8 @@ void add_replay_options(CLI::App& verb, ReplayCommandOptions& arguments) {
 void add_evaluate_replay(CLI::App& evaluate_verb, Action& action) {
   CLI::App* verb = evaluate_verb.add_subcommand(
       "replay",
-      "Of a recording from many known poses: plan from two frames with the others as candidates, "
-      "and see what the picked frame really reveals");
+      "Replay a recording from many known poses: plan from two frames with the others as "
+      "candidates, and measure what the picked frame really reveals");
   const auto arguments = std::make_shared<ReplayCommandOptions>();
   add_input_options(*verb, arguments->plan);
   add_replay_options(*verb, *arguments);

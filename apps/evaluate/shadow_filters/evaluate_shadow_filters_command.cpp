@@ -126,16 +126,16 @@ void add_mesh_options(CLI::App& verb, ShadowFilterCommandOptions& options) {
 void add_evaluate_shadow_filters(CLI::App& evaluate_verb, Action& action) {
   CLI::App* verb = evaluate_verb.add_subcommand(
       "shadow-filters",
-      "Compare filters of the false shadow that noisy depth makes, on simulated workcells: "
-      "precision and recall of the shadow's volume against what is truly hidden");
+      "Compare filters for the false shadow that noisy depth causes, on simulated workcells: "
+      "precision and recall of the shadow volume against the truly hidden volume");
   const auto options = std::make_shared<ShadowFilterCommandOptions>();
   verb->add_option("scenes", options->scenes,
                    "Workcell files, each with the cameras to use and their depth images: "
-                   "FILE[:CAMERA,...][+ideal|+noisy], e.g. wall.yaml:side; noisy without a word")
+                   "FILE[:CAMERA,...][+ideal|+noisy], e.g. wall.yaml:side (default: noisy)")
       ->required();
   add_filter_options(*verb, options->settings);
   add_mesh_options(*verb, *options);
-  verb->add_option("--seed", options->seed, "Random seed of the depth images' noise")
+  verb->add_option("--seed", options->seed, "Random seed for the depth images' noise")
       ->capture_default_str();
   add_json_flag(*verb, options->json, "JSON");
   add_threads_option(*verb, options->threads);

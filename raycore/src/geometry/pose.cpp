@@ -35,7 +35,7 @@ Pose Pose::from_rotation(const Eigen::Matrix3d& rotation, const Eigen::Vector3d&
       (rotation.transpose() * rotation - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
   if (!(off <= kTolerance)) {
     throw bad_input(std::string(where),
-                    fmt::format("this is no rotation: RᵀR differs from the identity by {:.3g}; "
+                    fmt::format("this is not a rotation: RᵀR differs from the identity by {:.3g}; "
                                 "expected an orthonormal 3×3 matrix, row by row",
                                 off));
   }
@@ -70,7 +70,7 @@ Pose Pose::looking_at(const Eigen::Vector3d& eye, const Eigen::Vector3d& target)
   check_translation(target, "target");
   const Eigen::Vector3d towards = target - eye;
   if (towards.isZero(0)) {
-    throw bad_input("target", "it coincides with the eye: no direction to look");
+    throw bad_input("target", "it coincides with the eye, so there is no viewing direction");
   }
   if (!towards.allFinite()) throw bad_input("target", "it is too far from the eye");
   const Eigen::Vector3d forward = towards.stableNormalized();

@@ -89,10 +89,9 @@ void MeshCollector::triangulate_waiting() {
     // Convex polygons take none; a few hundred for each corner are enough for what people draw.
     tests_left_ += 200 * corners.size();
     if (!triangulate(corners, vertices_, tests_left_, triangles_)) {
-      throw bad_input(file_,
-                      fmt::format("a polygon of {} corners is too intricate to be cut into "
-                                  "triangles; triangulate the mesh in the program that made it",
-                                  corners.size()));
+      throw bad_input(file_, fmt::format("a polygon of {} corners is too complex to triangulate; "
+                                         "triangulate the mesh in the program that made it",
+                                         corners.size()));
     }
     i += 1 + corners.size();
   }
@@ -132,7 +131,7 @@ void MeshCollector::remove_bad_vertices() {
   }
   const BadVertex& first = bad_vertices_.front();
   remarks_.push_back(fmt::format(
-      "{}: {} {} that no face uses {} no point, the first being {}; left out", first.place.text(),
+      "{}: {} {} that no face uses {} not finite, the first being {}; left out", first.place.text(),
       bad_vertices_.size(), bad_vertices_.size() == 1 ? "vertex" : "vertices",
       bad_vertices_.size() == 1 ? "is" : "are", to_text(first.p_file)));
 }

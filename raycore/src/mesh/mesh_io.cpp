@@ -35,8 +35,8 @@ std::string lower_cased_ending(const std::filesystem::path& path) {
           "has the ending \"{}\"; expected a mesh: .stl, .ply, .obj, .off, .glb, .gltf (2.0), "
           ".dae, .fbx, .3ds or .3mf; {}",
           ending,
-          geometry ? "it is no mesh but CAD geometry: export it as STL from the CAD program"
-                   : "convert it to one of them, for example with Blender or MeshLab"));
+          geometry ? "this is CAD geometry, not a mesh: export it as STL from the CAD program"
+                   : "convert it to one of these, for example with Blender or MeshLab"));
 }
 
 TriangleMesh read(const std::filesystem::path& path, const MeshFileFrame& frame) {

@@ -41,8 +41,8 @@ std::string_view read_keyword(TextScanner& text) {
   const std::string_view prefix = word.substr(0, std::min(off, word.size()));
   if (off == std::string_view::npos || prefix.find_first_not_of("STCN") != std::string_view::npos) {
     text.fail(
-        fmt::format("the file begins with {}; expected OFF, COFF, NOFF, STOFF or several of "
-                    "their prefixes (4OFF and nOFF are not of three dimensions)",
+        fmt::format("the file begins with {}; expected OFF, COFF, NOFF, STOFF or several of their "
+                    "prefixes (4OFF and nOFF are not three-dimensional)",
                     in_quotes(word)));
   }
   TextScanner ahead = text;

@@ -138,7 +138,7 @@ double BinaryPlyBody::value(PlyType type) {
     case PlyType::float64:
       return take<double>();
   }
-  place_.fail("a property of no known type");
+  place_.fail("a property of a known type");
 }
 
 bool BinaryPlyBody::more_follows() {
@@ -290,7 +290,8 @@ void read_elements(PlyBody& body, const PlyHeader& header, MeshCollector& mesh) 
   }
   if (body.more_follows()) {
     mesh.add_remark(
-        "more follows the last element that the header claims; left out (is a count wrong?)");
+        "there is more after the last element that the header declares; left out (is a count "
+        "wrong?)");
   }
 }
 

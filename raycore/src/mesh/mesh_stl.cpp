@@ -52,8 +52,8 @@ std::size_t checked_count(std::span<const std::uint8_t> bytes, MeshCollector& me
   if (stated > bytes.size() || (count == 0 && bytes.size() > kHeaderBytes)) {
     throw bad_input(
         mesh.file() + ", byte 80",
-        fmt::format("states {} triangles, which take {} bytes; the file has {} and is "
-                    "{}, or no STL file",
+        fmt::format("states {} triangles, which take {} bytes; the file has {} and is {}, or is "
+                    "not an STL file",
                     count, stated, bytes.size(), stated > bytes.size() ? "truncated" : "too long"));
   }
   if (stated < bytes.size()) {

@@ -84,11 +84,10 @@ std::string flip_reason(const LocatedPose& best, const LocatedPose& other, std::
                         double evidence, double expected) {
   const double turn = turn_between(best.T_world_cam, other.T_world_cam);
   return fmt::format(
-      "the pose is ambiguous: two poses that differ by {:.3g} m and {:.3g}° explain the {} "
-      "{} of the board nearly equally well, chi-square {:.4g} and {:.4g}, a difference of "
-      "{:.3g} in units of the residuals' own variance where prints are not perfectly flat, "
-      "expected {:g}; move the camera closer "
-      "or aside, or add markers that do not lie in the same plane",
+      "the pose is ambiguous: two poses that differ by {:.3g} m and {:.3g}° explain the {} {} of "
+      "the board nearly equally well, chi-square {:.4g} and {:.4g}, a difference of {:.3g} in "
+      "units of the residuals' own variance where prints are not perfectly flat, expected {:g}; "
+      "move the camera closer or to the side, or add markers outside that plane",
       (best.T_world_cam.translation() - other.T_world_cam.translation()).norm(),
       turn * 180 / EIGEN_PI, markers, markers == 1 ? "marker" : "markers", best.chi_square,
       other.chi_square, evidence, expected);
@@ -110,8 +109,8 @@ void decide(std::span<const BoardPair> all, std::span<const BoardFit> fits,
   if (const BoardFit* other = contradiction(all, fits)) {
     location.alternatives = {located(all, best), located(all, *other)};
     location.reason = fmt::format(
-        "the pose is ambiguous: {} markers of the board speak for one pose and {} others for "
-        "another one; check which of them were moved, or are on the board twice",
+        "the pose is ambiguous: {} markers of the board support one pose and {} others another "
+        "one; check which of them were moved, or are on the board twice",
         best.pairs.size(), other->pairs.size());
     return;
   }
@@ -178,10 +177,10 @@ void doubt(const Lens& lens, const SeenBoard& seen, const BoardFit& best,
     location.warning = fmt::format(
         "{} of the {} markers of the board that are seen contradict the pose ({}): {}",
         against.size(), location.markers_seen, fmt::join(against, ", "),
-        explanation ? fmt::format("all but {} agree if {}",
-                                  location.markers_seen - explanation->markers, explanation->cause)
-                    : std::string("they were moved, read wrongly, or stand elsewhere in the "
-                                  "workcell"));
+        explanation
+            ? fmt::format("all but {} agree if {}", location.markers_seen - explanation->markers,
+                          explanation->cause)
+            : std::string("they were moved or misread, or the workcell has them elsewhere"));
     if (explanation) {
       if (explanation->markers == location.markers_seen) {
         location.warning = fmt::format(

@@ -150,7 +150,8 @@ void add_inverted(std::vector<Found> inverted, std::vector<Found>& all) {
 
 std::vector<Family> checked_families(const std::vector<std::string>& names) {
   const char* where = "dictionaries";
-  if (names.empty()) throw bad_input(where, "there is none; name at least one, e.g. 4X4_50");
+  if (names.empty())
+    throw bad_input(where, "there is no dictionary; name at least one, e.g. 4X4_50");
   std::vector<Family> families;
   std::set<std::string> seen;
   for (const std::string& name : names) {
@@ -160,8 +161,8 @@ std::vector<Family> checked_families(const std::vector<std::string>& names) {
                                          name, fmt::join(marker_dictionaries(), ", ")));
     }
     if (!seen.insert(marker_family(name)).second) {
-      throw bad_input(where, fmt::format("{} is the second one of the family {}, whose markers are "
-                                         "the same; name only the larger one",
+      throw bad_input(where, fmt::format("{} is the second dictionary of the family {}, whose "
+                                         "members share their markers; name only the larger one",
                                          name, marker_family(name)));
     }
     families.push_back({name, std::move(*dictionary)});

@@ -65,7 +65,7 @@ void explain_rest(const CandidateCorrespondences& candidates,
     if (known.contains(id)) continue;
     result.unexplained.push_back({id, result.stopped == StopReason::none
                                           ? election.reason_against(i)
-                                          : "not looked at: stopped before"});
+                                          : "not processed: stopped before"});
   }
 }
 

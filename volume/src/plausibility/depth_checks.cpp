@@ -95,7 +95,7 @@ Share share_of(const std::vector<DepthSample>& samples) {
 /// What is odd about one image; empty if nothing is.
 std::string oddity(const SampledCamera& camera, double voxel_size_m) {
   const std::vector<DepthSample>& samples = camera.depths;
-  if (samples.empty()) return "the depth image has no reading at all";
+  if (samples.empty()) return "the depth image has no valid reading";
   const auto [least, most] = std::ranges::minmax(samples, {}, &DepthSample::depth_m);
   const DepthRange range = camera.camera->camera.range();
   const auto usable = std::ranges::count_if(samples, [&](const DepthSample& sample) {

@@ -168,10 +168,10 @@ void read_with_assimp(std::span<const std::uint8_t> bytes, const std::filesystem
   const std::string how = child.end();
   throw Error(
       child.out_of_memory() ? ErrorCode::out_of_resources : ErrorCode::bad_input, mesh.file(),
-      fmt::format("cannot be read as a .{} mesh: assimp, which ran in a process of its own, {}; "
-                  "the file is damaged or far too large: export it anew, or convert it to "
-                  ".stl, .ply, .obj or .glb",
-                  ending, how.empty() ? "said nothing" : how));
+      fmt::format(
+          "cannot be read as a .{} mesh: assimp, which ran in a process of its own, {}; the file "
+          "is damaged or far too large: export it again, or convert it to .stl, .ply, .obj or .glb",
+          ending, how.empty() ? "said nothing" : how));
 }
 
 }  // namespace vantage::raycore::detail

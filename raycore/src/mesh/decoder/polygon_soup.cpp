@@ -77,7 +77,7 @@ bool take_polygons(SoupStream& stream, std::uint64_t words, MeshCollector& mesh)
     const FilePlace place = {mesh.file(), "face", number};
     if (count > kMaxCorners || count > words - done - 1) {
       place.fail(
-          fmt::format("the face has {} corners, which cannot be; the file is damaged", count));
+          fmt::format("the face has {} corners, which is impossible; the file is damaged", count));
     }
     corners.clear();
     for (std::uint32_t k = 0; k < count; ++k) {

@@ -46,7 +46,7 @@ void check_extensions(const GltfValue& root, MeshCollector& mesh) {
   }
   for (std::size_t i = 0; i < root.element_count("extensionsUsed"); ++i) {
     if (root.element("extensionsUsed", i).text() == "EXT_mesh_gpu_instancing") {
-      mesh.add_remark("its copies by EXT_mesh_gpu_instancing are left out, all but the first");
+      mesh.add_remark("only the first of its copies by EXT_mesh_gpu_instancing is kept");
     }
   }
 }
