@@ -38,7 +38,7 @@ void add_commands(CLI::App& app, Action& action) {
   add_evaluate_command(app, action);
 }
 
-/// No file, folder or name that an option takes is empty; a shell variable that is not set is.
+/// No option takes an empty file, folder or name; an unset shell variable gives one.
 void refuse_empty_values(const CLI::App& app) {
   for (const CLI::Option* option : app.get_options()) {
     if (option->count() == 0 || option->get_expected_max() == 0) continue;
@@ -51,7 +51,7 @@ void refuse_empty_values(const CLI::App& app) {
   for (const CLI::App* verb : app.get_subcommands()) refuse_empty_values(*verb);
 }
 
-/// Help and versions go to stdout, mistakes to stderr.
+/// Help and version go to stdout, errors to stderr.
 ExitCode answer(const CLI::App& app, const CLI::ParseError& error) {
   std::ostringstream out, err;
   const bool asked = app.exit(error, out, err) == 0;
@@ -72,7 +72,7 @@ ExitCode run(int argc, char** argv) {
     return answer(app, error);
   }
   refuse_empty_values(app);
-  instruction_set();  // a wrong VANTAGE_MAX_ISA is said before any work
+  instruction_set();  // a wrong VANTAGE_MAX_ISA is reported before any work
   return action();
 }
 

@@ -22,7 +22,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr const char* kImportRecord = "import.json";
 
-/// Refuses to mix a dataset with what somebody else has put there.
+/// Refuses to mix a dataset with other files.
 void claim(const fs::path& folder) {
   if (fs::exists(folder) && !fs::is_directory(folder)) {
     throw bad_input(folder.string(), "a file has this name; name a folder for the dataset");
@@ -109,7 +109,8 @@ std::string write_lenses(const ImportedDataset& dataset, const std::vector<int>&
   return option;
 }
 
-/// Colour of another size than depth is of no use: they share one set of intrinsics.
+/// Colour images of another size than the depth images cannot be used: they share one set of
+/// intrinsics.
 void leave_out_colour(const std::vector<int>& ids, const fs::path& folder,
                       ImportedDataset& dataset) {
   fs::remove_all(folder / "rgb");

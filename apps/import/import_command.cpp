@@ -107,8 +107,7 @@ void add_import_command(CLI::App& app, Action& action) {
       "  vantage import rgbd_dataset_freiburg1_desk --every 20 -o desk\n"
       "  vantage import my_nerfstudio_capture --images 0,12,31 -o capture\n"
       "  vantage import my_colmap_project --depth-scale-mm 0.25 -o project");
-  verb->parse_complete_callback(
-      [&action, options] { action = [=] { return import_dataset(*options); }; });
+  set_action(*verb, action, options, import_dataset);
 }
 
 }  // namespace vantage

@@ -12,10 +12,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kMaxApart_s = 0.02;  // what TUM's own associate.py takes for one moment
+constexpr double kMaxApart_s = 0.02;  // the largest difference that TUM's own associate.py matches
 constexpr double kTumScale_mm = 0.2;  // 5000 counts are a metre
 
-/// What a line of the three files says of a moment.
+/// A line of one of the three files, and its time.
 struct TumMoment {
   double time_s;
   TextLine line;
@@ -35,7 +35,7 @@ std::vector<TumMoment> moments(const fs::path& file) {
   return all;
 }
 
-/// The moment that is nearest in time; null if none is near.
+/// The line that is nearest in time; null if none is near enough.
 const TumMoment* nearest(const std::vector<TumMoment>& all, double time_s) {
   const auto after = std::ranges::lower_bound(all, time_s, {}, &TumMoment::time_s);
   const TumMoment* best = nullptr;

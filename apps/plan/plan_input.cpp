@@ -64,7 +64,7 @@ Workcell workcell_of(const PlanOptions& options) {
   return workcell;
 }
 
-/// Depths so far away, or noise so large, that what is measured says nothing of where surfaces are.
+/// Depths so large, or noise so strong, that measurements do not tell where surfaces are.
 void warn_of_thick_surfaces(const Workcell& workcell, const WorldModel& world,
                             std::vector<std::string>& warnings) {
   const Box& area = workcell.work_area;

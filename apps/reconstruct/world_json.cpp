@@ -26,7 +26,7 @@ Json located_json(const LocatedPose& pose) {
           {"rms_px", pose.rms_px}};
 }
 
-/// One camera: where it is, or why nobody knows.
+/// One camera: its pose, or why it is unknown.
 Json camera_json(const BopImage& image, const CameraView& view, const CameraLocation& location) {
   const bool by_board = location.pose || !location.reason.empty();
   const Intrinsics& k = view.lens.intrinsics();

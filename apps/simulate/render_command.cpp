@@ -6,11 +6,9 @@
 #include <memory>
 
 #include "cli/command.hpp"
+#include "cli/interruptible_run.hpp"
 #include "cli/picture_file.hpp"
-#include "cli/progress_line.hpp"
 #include "cli/shared_options.hpp"
-#include "cli/signal_handler.hpp"
-#include "cli/workers.hpp"
 #include "simulator/color/color_sensor.hpp"
 #include "simulator/scene/resized_camera.hpp"
 #include "simulator/sheet/contact_sheet.hpp"
@@ -107,12 +105,9 @@ std::optional<ColorImage> single(const RenderOptions& options, const StopToken& 
 }
 
 ExitCode render(const RenderOptions& options) {
-  const StopToken stop;
-  const SignalHandler interrupt({stop});
-  Workers workers(options.threads);
-  const std::optional<ColorImage> image = workers.execute([&] {
-    const ProgressLine progress("rendering", stop);
-    return options.contact_sheet ? sheet(options, stop) : single(options, stop);
+  InterruptibleRun run(options.threads);
+  const std::optional<ColorImage> image = run.execute("rendering", [&] {
+    return options.contact_sheet ? sheet(options, run.stop()) : single(options, run.stop());
   });
   if (!image) return ExitCode::cancelled;
   write_picture(options.picture, *image);
@@ -144,7 +139,7 @@ void add_render_command(CLI::App& app, Action& action) {
       "  vantage render assets/workcells/corridor.yaml --camera left --samples 16 -o left.jpg\n"
       "  vantage render assets/workcells/wall.yaml assets/workcells/duck.yaml --contact-sheet -o "
       "s.jpg");
-  verb->parse_complete_callback([&action, options] { action = [=] { return render(*options); }; });
+  set_action(*verb, action, options, render);
 }
 
 }  // namespace vantage

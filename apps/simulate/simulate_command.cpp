@@ -6,14 +6,13 @@
 
 #include "cli/command.hpp"
 #include "cli/help_formatter.hpp"
+#include "cli/interruptible_run.hpp"
 #include "cli/number_checks.hpp"
-#include "cli/progress_line.hpp"
 #include "cli/shared_options.hpp"
-#include "cli/signal_handler.hpp"
-#include "cli/workers.hpp"
 #include "options/command_line.hpp"
 #include "options/field_json.hpp"
 #include "options/sensor_fields.hpp"
+#include "options/unused_options.hpp"
 #include "process/result_output.hpp"
 #include "simulate/simulated_dataset.hpp"
 #include "simulate/simulation_record.hpp"
@@ -81,8 +80,9 @@ void add_depth_options(CLI::App& verb, SimulateOptions& a) {
   CLI::Option* ideal = verb.add_flag("--ideal-depth", a.ideal_depth,
                                      "Measure every surface exactly: none of the effects above")
                            ->group(heading);
-  for (const char* effect : {"--depth-noise-px", "--disparity-step-px", "--max-disparity-px",
-                             "--max-incidence-deg", "--border-px", "--flying-pixels"}) {
+  for (const char* effect :
+       {"--depth-noise-px", "--disparity-step-px", "--max-disparity-px", "--max-incidence-deg",
+        "--border-px", "--flying-pixels", "--no-second-imager", "--no-projector"}) {
     ideal->excludes(effect);
   }
 }
@@ -114,22 +114,21 @@ RecordingOptions recording_of(const SimulateOptions& a, const Workcell& workcell
 }
 
 ExitCode simulate(const SimulateOptions& options) {
-  const StopToken stop;
-  const SignalHandler interrupt({stop});
-  Workers workers(options.threads);
-
+  InterruptibleRun run(options.threads);
   Workcell workcell = load_workcell(options.workcell);
   SimulationOptions settings = options.settings;
   settings.recording = recording_of(options, workcell);
+  refuse_unused(!settings.types.empty(),
+                settings.objects.has_value() || workcell.random_objects.has_value(), "--types",
+                "--objects N, or random_objects in the workcell");
   prepare_objects(workcell, settings);
   check_recording(workcell, settings.recording);
   claim_folder(options.folder);
-  const bool complete = workers.execute([&] {
-    const ProgressLine progress("recording", stop);
+  const bool complete = run.execute("recording", [&] {
     const SimulatedCell cell = simulated_cell(workcell);
     const auto json =
         write_simulation_record(options.workcell, workcell, cell, settings, options.folder);
-    if (!record(workcell, cell, settings.recording, options.folder, stop)) return false;
+    if (!record(workcell, cell, settings.recording, options.folder, run.stop())) return false;
     print_result(options.json, json, [&] { return summary_of_simulation(json); });
     return true;
   });
@@ -160,8 +159,7 @@ void add_simulate_command(CLI::App& app, Action& action) {
       "  vantage simulate assets/workcells/clutter.yaml --objects 20 --types red_cube --seed 7 -o "
       "c\n"
       "  vantage simulate assets/workcells/duck.yaml --ideal-depth --samples 64 -o duck");
-  verb->parse_complete_callback(
-      [&action, options] { action = [=] { return simulate(*options); }; });
+  set_action(*verb, action, options, simulate);
 }
 
 }  // namespace vantage

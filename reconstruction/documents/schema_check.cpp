@@ -36,7 +36,7 @@ bool is_of_any_type(const json& value, const json& types) {
                      [&](const json& type) { return is_of_type(value, type.get<std::string>()); });
 }
 
-/// The walk that finds what people get wrong most: keys and types.
+/// The walk that finds the most frequent mistakes: keys and types.
 class Walk {
  public:
   Walk(const Document& document, const json& root) : document_(document), root_(root) {}

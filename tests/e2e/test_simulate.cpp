@@ -215,7 +215,7 @@ TEST_CASE("what cannot be simulated is refused with the reason, and leaves nothi
                    "box: {min_m: [0, 0, 0], max_m: [0.1, 0.1, 0.1]}}\n");
   const auto blind = run_vantage("simulate" + quoted(cell) + " -o" + quoted(folder / "data"));
   CHECK(blind.exit_code == 3);
-  CHECK(blind.err.find("cell.yaml: cameras: there are none") != std::string::npos);
+  CHECK(blind.err.find("cell.yaml: cameras: there are no cameras") != std::string::npos);
   CHECK_FALSE(fs::exists(folder / "data"));
 
   const auto folded = simulate("duck", folder / "data", "--distortion -2 0 0 0 0");
@@ -226,7 +226,13 @@ TEST_CASE("what cannot be simulated is refused with the reason, and leaves nothi
   CHECK(step.err.find("--disparity-step-px: found '-1'; expected a number, 0 or above") !=
         std::string::npos);
   CHECK_FALSE(fs::exists(folder / "data"));
-  CHECK(simulate("duck", folder / "data", "--ideal-depth --border-px 4").exit_code == 2);
+  for (const char* options : {"--ideal-depth --border-px 4", "--ideal-depth --no-projector",
+                              "--ideal-depth --no-second-imager", "--types duck"}) {
+    CAPTURE(options);
+    CHECK(simulate("duck", folder / "data", options).exit_code == 2);
+  }
+  CHECK(simulate("duck", folder / "data", "--types duck").err.find("--objects N") !=
+        std::string::npos);
 
   const auto coarse = simulate("duck", folder / "data", "--depth-scale-mm 0.01");
   CHECK(coarse.exit_code == 3);

@@ -1,14 +1,13 @@
 #include <memory>
 
 #include "cli/command.hpp"
-#include "cli/progress_line.hpp"
+#include "cli/interruptible_run.hpp"
 #include "cli/shared_options.hpp"
-#include "cli/signal_handler.hpp"
-#include "cli/workers.hpp"
 #include "evaluate/expected_gain/gain_summary.hpp"
 #include "evaluate/expected_gain/random_cell.hpp"
 #include "options/command_line.hpp"
 #include "options/field_json.hpp"
+#include "options/unused_options.hpp"
 #include "options/view_options.hpp"
 #include "options/volume_fields.hpp"
 #include "process/result_output.hpp"
@@ -88,25 +87,29 @@ PlanningCell cell_number(const ExpectedGainCommandOptions& options, std::size_t 
   return cell;
 }
 
-/// What was finished when it was stopped is reported all the same.
+void refuse_unused(const ExpectedGainCommandOptions& options) {
+  VolumeOptions volume;
+  read_given(options.given, {"", "", {}, {fields_of(volume)}});
+  refuse_unused_filter(options.given, volume);
+}
+
+/// What was finished before a stop is still reported.
 ExitCode evaluate(const ExpectedGainCommandOptions& options) {
-  const StopToken stop;
-  const SignalHandler interrupt({stop});
+  InterruptibleRun run(options.threads);
+  refuse_unused(options);
   std::vector<GainMethod> methods;
   for (const std::string& name : options.methods) methods.push_back(gain_method(name));
   const std::size_t count = options.cells.size() + std::size_t(options.random);
   if (count == 0)
     throw bad_input("cells", "there are no cells; name workcells, or give --random N");
   std::vector<CellGains> cells;
-  Workers workers(options.threads);
-  workers.execute([&] {
-    const ProgressLine progress("evaluating", stop);
-    stop.expect(count);
-    for (std::size_t i = 0; i < count && !stop.stop_requested(); ++i) {
+  run.execute("evaluating", [&] {
+    run.stop().expect(count);
+    for (std::size_t i = 0; i < count && !run.cancelled(); ++i) {
       CellGains gains =
           evaluate_expected_gain(cell_number(options, i), methods, !options.no_oracle, StopToken());
       cells.push_back(std::move(gains));
-      stop.advance(1);
+      run.stop().advance(1);
     }
   });
   print_result(options.json, json_of(cells), [&] {
@@ -114,7 +117,7 @@ ExitCode evaluate(const ExpectedGainCommandOptions& options) {
     for (const ReportTable& table : gain_tables(cells)) text += table_text(table) + "\n";
     return text;
   });
-  return stop.stop_requested() ? ExitCode::cancelled : ExitCode::ok;
+  return run.exit_code();
 }
 
 }  // namespace
@@ -151,8 +154,7 @@ void add_evaluate_expected_gain(CLI::App& evaluate_verb, Action& action) {
   add_json_flag(*verb, options->json, "JSON");
   add_threads_option(*verb, options->threads);
   verb->footer(kExpectedGainExamples);
-  verb->parse_complete_callback(
-      [&action, options] { action = [=] { return evaluate(*options); }; });
+  set_action(*verb, action, options, evaluate);
 }
 
 }  // namespace vantage

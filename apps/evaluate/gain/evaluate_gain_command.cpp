@@ -1,11 +1,9 @@
 #include <memory>
 
 #include "cli/command.hpp"
+#include "cli/interruptible_run.hpp"
 #include "cli/number_checks.hpp"
-#include "cli/progress_line.hpp"
 #include "cli/shared_options.hpp"
-#include "cli/signal_handler.hpp"
-#include "cli/workers.hpp"
 #include "evaluate/gain/true_gain.hpp"
 #include "process/result_output.hpp"
 
@@ -35,13 +33,11 @@ struct GainCommandOptions {
 };
 
 ExitCode evaluate_gain(const GainCommandOptions& options) {
-  const StopToken stop;
-  const SignalHandler interrupt({stop});
-  const auto gain = Workers(options.threads).execute([&] {
-    const ProgressLine progress("measuring", stop);
-    return true_gain(options.workcell, options.plan, options.chosen(), stop);
+  InterruptibleRun run(options.threads);
+  const auto gain = run.execute("measuring", [&] {
+    return true_gain(options.workcell, options.plan, options.chosen(), run.stop());
   });
-  if (stop.stop_requested()) return ExitCode::cancelled;
+  if (run.cancelled()) return ExitCode::cancelled;
   print_result(options.json, gain, [&] { return summary_of_true_gain(gain); });
   return ExitCode::ok;
 }
@@ -72,8 +68,7 @@ void add_evaluate_gain(CLI::App& evaluate_verb, Action& action) {
   add_json_flag(*verb, options->json, "JSON");
   add_threads_option(*verb, options->threads);
   verb->footer(kGainExamples);
-  verb->parse_complete_callback(
-      [&action, options] { action = [=] { return evaluate_gain(*options); }; });
+  set_action(*verb, action, options, evaluate_gain);
 }
 
 }  // namespace vantage

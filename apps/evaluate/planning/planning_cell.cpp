@@ -27,8 +27,8 @@ std::vector<std::string> parts_of(const std::string& text, char separator) {
   return parts;
 }
 
-/// What follows the last separator of the file's name, which goes with it; nothing if there is
-/// none, or if that is a file as it is.
+/// The part after the file name's last separator, the separator included; nothing if there is no
+/// separator, or if the whole name is a file.
 std::optional<std::string> cut_off(std::string& name, char separator) {
   const std::size_t at = name.rfind(separator);
   if (at == std::string::npos || name.find('/', at) != std::string::npos || fs::exists(name)) {
@@ -132,7 +132,7 @@ std::vector<PinholeCamera> PlanningCell::cameras() const {
 }
 
 PlanningCell load_planning_cell(const PlanningCellName& name, DepthKind usual, std::uint64_t seed) {
-  // The thesis, whose tables this is for, knows no body.
+  // The thesis, whose tables this reproduces, has no camera body.
   Workcell workcell = load_workcell(name.workcell, ViewConstraints::bare());
   const std::vector<std::size_t> cameras = chosen_cameras(name, workcell);
   place_random_objects(workcell);

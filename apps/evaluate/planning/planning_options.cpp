@@ -66,8 +66,10 @@ void add_method_options(CLI::App& verb, PlanningCommandOptions& options) {
 }
 
 void add_output_options(CLI::App& verb, PlanningCommandOptions& options) {
-  add_output_option(verb, options.folder, "planning.html, planning.json and charts as SVG");
+  CLI::Option* folder =
+      add_output_option(verb, options.folder, "planning.html, planning.json and charts as SVG");
   verb.add_flag("--no-pictures", options.no_pictures, "Leave the scenes' pictures out of the page")
+      ->needs(folder)
       ->group("Output");
   add_json_flag(verb, options.json, "planning.json");
   add_threads_option(verb, options.threads);

@@ -10,7 +10,7 @@
 
 namespace vantage {
 
-/// An image in which a reconstruction is held against the truth.
+/// An image in which a reconstruction is compared with the ground truth.
 struct ScoredImage {
   Intrinsics camera;
   Pose T_world_cam;

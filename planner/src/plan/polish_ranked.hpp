@@ -6,7 +6,7 @@
 
 namespace vantage::planner::detail {
 
-/// Polishes the first of `ranked` and sorts them anew; among equals the lower candidate stays
+/// Polishes the first of `ranked` and sorts them again; among equals the lower candidate stays
 /// first. All of them are at least as good as before, hence ahead of the others, as before.
 ///
 /// @returns false if `stop` asked to stop before: then nothing is changed.

@@ -87,7 +87,7 @@ Eigen::Quaterniond rotation_between(const Eigen::Vector3d& from, const Eigen::Ve
   const Eigen::Vector3d a = from.normalized(), b = to.normalized();
   const Eigen::Vector3d across = a.cross(b);
   const double sine = across.norm();
-  const bool parallel = sine < 1e-12;  // the rest is rounding, and says nothing of an axis
+  const bool parallel = sine < 1e-12;  // the rest is rounding, and does not determine an axis
   if (parallel && a.dot(b) > 0) return Eigen::Quaterniond::Identity();
   const Eigen::Vector3d axis = parallel ? a.unitOrthogonal() : Eigen::Vector3d(across / sine);
   // Half the angle's cosine and sine, without cancellation near half a turn.

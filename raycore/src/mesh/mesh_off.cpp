@@ -73,7 +73,7 @@ void go_to_element(TextScanner& text, const char* what, std::uint64_t number, st
   }
 }
 
-void read_off_face(TextScanner& text, std::uint64_t vertex_count, MeshCollector& mesh,
+void read_off_face(TextScanner& text, std::uint64_t vertex_count, MeshBuilder& mesh,
                    std::vector<std::int64_t>& corners) {
   const std::uint64_t count = to_count(text.word(), "corners", text);
   corners.clear();
@@ -91,7 +91,7 @@ void read_off_face(TextScanner& text, std::uint64_t vertex_count, MeshCollector&
 
 }  // namespace
 
-void read_off(std::span<const std::uint8_t> bytes, MeshCollector& mesh) {
+void read_off(std::span<const std::uint8_t> bytes, MeshBuilder& mesh) {
   TextScanner text(as_text(bytes), mesh.file());
   const std::string_view glued = read_keyword(text);
   const std::uint64_t vertices = to_count(glued.empty() ? off_word(text) : glued, "vertices", text);

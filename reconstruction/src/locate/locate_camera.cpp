@@ -93,7 +93,7 @@ std::string flip_reason(const LocatedPose& best, const LocatedPose& other, std::
       other.chi_square, evidence, expected);
 }
 
-/// Another set of as many markers that speaks for another pose.
+/// Another set of as many markers that supports another pose.
 const BoardFit* contradiction(std::span<const BoardPair> all, std::span<const BoardFit> fits) {
   const BoardFit& best = fits.front();
   for (const BoardFit& other : fits.subspan(1)) {
@@ -169,7 +169,7 @@ void widen(LocatedPose& pose, const Pose& T_world_cam) {
   pose.covariance += error * error.transpose();
 }
 
-/// What speaks against a pose that was found.
+/// What contradicts a pose that was found.
 void doubt(const Lens& lens, const SeenBoard& seen, const BoardFit& best,
            const std::optional<reconstruction::detail::Explanation>& explanation,
            const std::vector<std::string>& against, CameraLocation& location) {
@@ -235,7 +235,7 @@ CameraLocation locate_camera(const Lens& lens, std::span<const Observation> obse
   const std::string hint =
       explanation ? fmt::format("; {} agree if {}", explanation->markers, explanation->cause)
                   : std::string();
-  // A marker that is read wrongly fits to a pose of its own as well as a right one.
+  // A misread marker fits a pose of its own as well as a correct one.
   const bool mistaken = explanation && explanation->exact && against.size() > 1 &&
                         explanation->markers == location.markers_seen;
   const bool majority = best && best->pairs.size() >= 2 * against.size() && !mistaken;

@@ -107,7 +107,7 @@ void find_markers(const cv::Mat1b& grey, const cv::Mat1f& light, const Lens* len
   }
 }
 
-/// One square of the image is one marker: the one whose pattern is better to be seen.
+/// A square of the image is one marker: the one whose pattern is more visible.
 void leave_one_of_each(std::vector<Found>& all) {
   std::vector<Found> kept;
   for (Found& found : all) {
@@ -135,8 +135,8 @@ void leave_out_overlaps(const std::vector<Found>& others, std::vector<Found>& so
 
 /// The white paper around a black marker is a black frame in the negative, and may be read as
 /// another marker; so may, of a white marker, the black around it. Those of the kind that there is
-/// less of are taken for that. A single inverted one is none: what is printed so is printed so
-/// everywhere.
+/// less of are taken for that. A single inverted one is not a marker: all markers of a print are
+/// inverted, or none.
 void add_inverted(std::vector<Found> inverted, std::vector<Found>& all) {
   constexpr std::size_t kFewestInverted = 2;
   if (inverted.size() > all.size()) {

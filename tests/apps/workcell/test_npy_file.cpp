@@ -69,8 +69,8 @@ TEST_CASE("arrays as NumPy writes them, in every format") {
 }
 
 TEST_CASE("what is no array of bytes is refused") {
-  expect_npy_refused("", "no NumPy array");
-  expect_npy_refused("work_area: 1\n", "no NumPy array");
+  expect_npy_refused("", "not a NumPy array");
+  expect_npy_refused("work_area: 1\n", "not a NumPy array");
   expect_npy_refused(npy(kDictionary, counting(), 4), "format 4.0");
   expect_npy_refused(npy(kDictionary, counting() + "x"), "25 bytes follow its header; expected 24");
   expect_npy_refused(npy(kDictionary, ""), "0 bytes follow");

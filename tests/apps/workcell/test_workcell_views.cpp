@@ -237,7 +237,7 @@ TEST_CASE("limits that are none are refused") {
   expect_cell_refused("reach: {map: {file: none.npy, origin_m: [0, 0, 0], cell_m: 1}}\n",
                       "reach.map.file", {"no file", "none.npy"});
   expect_cell_refused("reach: {map: {file: views.json, origin_m: [0, 0, 0], cell_m: 1}}\n",
-                      "views.json", {"no NumPy array"});
+                      "views.json", {"not a NumPy array"});
   expect_cell_refused("reach: {map: {file: views.json, origin_m: [0, 0, 0], cell_m: 0}}\n",
                       "reach.map.cell_m", {"found 0"});
   expect_cell_refused("view_cone: {axis: [0, 0, 0], half_angle_rad: 1}\n", "view_cone",

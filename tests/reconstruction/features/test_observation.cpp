@@ -37,7 +37,7 @@ TEST_CASE("faults of points are named") {
   CHECK(fault_of(marker({{-1, 8}, {8, 9}, {9, 1}, {0, 0}})) ==
         "the corners are in the wrong order, as if seen from behind");
   CHECK(fault_of(marker({{0, 0}, {.5, 0}, {.5, .5}, {0, .5}})) ==
-        "the marker is only 0.25 px² large");
+        "the marker covers only 0.25 px²");
 }
 
 TEST_CASE("a standard deviation is a positive number") {

@@ -139,7 +139,7 @@ TEST_CASE("two groups of markers that contradict each other are no pose") {
   const CameraLocation found = locate(board);
   CHECK(!found.pose);
   CHECK(found.alternatives.size() == 2);
-  check_parts(found.reason, {"4 markers of the board speak for one pose and 4 others"});
+  check_parts(found.reason, {"4 markers of the board support one pose and 4 others"});
 }
 
 TEST_CASE("no pose without a reason that helps") {

@@ -177,14 +177,14 @@ TEST_CASE("placement: when there is no room it says how many are placed") {
   const auto error = caught([&] { place_at_rest(cubes, {}, {tray, 1}); });
   REQUIRE(error);
   CHECK(error->where() == "area");
-  check_parts(error->message(), {"of 9 bodies are placed", "0.12 x 0.1 m", "widen the area"});
+  check_parts(error->message(), {"of 9 bodies were placed", "0.12 x 0.1 m", "Enlarge the area"});
   const int placed = error->message()[0] - '0';
   CHECK(placed >= 1);
   CHECK(placed <= 3);
   CHECK(place_at_rest(std::span(cubes).first(std::size_t(placed)), {}, {tray, 1}).size() ==
         std::size_t(placed));
 
-  expect_bad_input("area", "0 of 1 bodies are placed", [] {
+  expect_bad_input("area", "0 of 1 bodies were placed", [] {
     place_at_rest(Bodies{shared(cuboid(0.3, 0.3, 0.3))}, {}, {Box({0, 0, 0}, {0.2, 0.2, 1})});
   });
 }

@@ -35,7 +35,7 @@ std::optional<std::string> open_mesh_warning(const KnownObject& object,
   return text;
 }
 
-/// What is odd about a mesh wherever it stands.
+/// What is wrong with a mesh, independent of its pose.
 void add_mesh_warnings(const KnownObject& object, const MeshTopology& topology,
                        std::vector<std::string>& warnings) {
   for (const std::string& remark : object.mesh->remarks()) {

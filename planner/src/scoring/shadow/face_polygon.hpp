@@ -147,7 +147,7 @@ class FaceProjector {
   double lowest_m_;           ///< faces that are lower look away
   std::vector<GroupInView> groups_;
 
-  // Of the corners of one group, from `loaded_` on. Pixels are of no use where the depth is not
+  // Of the corners of one group, from `loaded_` on. Pixels are undefined where the depth is not
   // above `clip_m_`.
   std::uint32_t loaded_ = 0;
   Eigen::Vector3d outwards_;  ///< the normal, in the camera's frame, of the face that is visited

@@ -150,7 +150,7 @@ PolygonSoup decode(std::span<const std::uint8_t> bytes, const std::string& endin
 }  // namespace
 
 void read_with_assimp(std::span<const std::uint8_t> bytes, const std::filesystem::path& path,
-                      MeshCollector& mesh) {
+                      MeshBuilder& mesh) {
   std::string ending = path.extension().string().substr(1);
   for (char& c : ending) c = c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c;
   const unsigned seconds = 2 + 2 * unsigned(bytes.size() >> 20);

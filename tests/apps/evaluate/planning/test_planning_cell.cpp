@@ -111,7 +111,7 @@ TEST_CASE("cells that cannot be evaluated say why") {
   const auto bare = folder.write("bare.yaml",
                                  "work_area: {min_m: [0, 0, 0], max_m: [1, 1, 1]}\n"
                                  "known_objects: [{name: a, shape: {sphere: {radius_m: 0.1}}}]\n");
-  expect_refusal([&] { load(bare, ""); }, bare.string() + ": cameras", "there are none");
+  expect_refusal([&] { load(bare, ""); }, bare.string() + ": cameras", "there are no cameras");
 }
 
 }  // namespace vantage::test
