@@ -33,7 +33,7 @@ test::CommandResult simulate(const char* cell, const fs::path& folder,
 
 }  // namespace
 
-TEST_CASE("a simulated dataset is what BOP describes, and agrees with its own truth") {
+TEST_CASE("a simulated dataset is as BOP describes it, and agrees with its ground truth") {
   const test::TemporaryFolder folder;
   for (const char* cell : {"wall", "duck"}) {
     CAPTURE(cell);
@@ -59,7 +59,8 @@ TEST_CASE("the same seed gives the same files at any number of threads") {
   CHECK(other.at("scene_camera.json") == one.at("scene_camera.json"));
 }
 
-TEST_CASE("a simulated dataset is planned with its own workcell, and the promise judged") {
+TEST_CASE(
+    "a simulated dataset is planned with its own workcell, and the predicted gain evaluated") {
   const test::TemporaryFolder folder;
   const fs::path data = folder / "data", out = folder / "out";
   const auto recorded = simulate("two_pillars", data, "--json");
@@ -104,7 +105,7 @@ TEST_CASE("a simulated dataset is planned with its own workcell, and the promise
         doctest::Approx(gain["true_hidden_m3"].get<double>()).epsilon(0.2));
 }
 
-TEST_CASE("all views of a plan are judged in their order, by its own sensor and filter") {
+TEST_CASE("all views of a plan are evaluated in order, by its own sensor and filter") {
   const test::TemporaryFolder folder;
   const fs::path data = folder / "data", out = folder / "out";
   REQUIRE(simulate("foreign_objects", data).exit_code == 0);

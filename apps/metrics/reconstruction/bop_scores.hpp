@@ -17,7 +17,7 @@ struct ScoredImage {
   std::shared_ptr<const DepthImage> depth;  ///< null: VSD is not measured, and nothing hides
 };
 
-/// BOP's errors of an estimate, against the true object that it stands for
+/// BOP's errors of an estimate, relative to the true object that it was matched to
 /// (`ReconstructionEvaluator::matches`). Those of `ObjectErrors` have symmetries taken out; of
 /// these, MSSD alone knows of them.
 struct EstimateErrors {

@@ -53,7 +53,7 @@ class ReconstructionEvaluator {
   ReconstructionScore evaluator(const Reconstruction& reconstruction,
                                 const std::vector<bool>& counts) const;
 
-  /// Without a threshold: for each estimate the true object of its type that it stands for.
+  /// Without a threshold: for each estimate the true object of its type that it was matched to.
   std::vector<std::optional<Match>> matches(const Reconstruction& reconstruction) const;
 
  private:

@@ -206,8 +206,7 @@ TEST_CASE("fields: the schema has types, ranges, defaults and help") {
   CHECK(where["radii_m"]["items"]["exclusiveMinimum"] == 0);
 }
 
-TEST_CASE(
-    "help: grouped, without the experts' options unless all are asked for, 100 columns wide") {
+TEST_CASE("help: grouped, expert options in --help-all only, 100 columns wide") {
   const std::string brief = help("--help"), full = help("--help-all");
   CHECK(has(brief, "Fruit:\n"));
   CHECK(has(brief, "--count N"));

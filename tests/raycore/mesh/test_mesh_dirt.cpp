@@ -45,7 +45,7 @@ TEST_CASE("more behind the last element of a PLY") {
   CHECK(read_mesh(file).remarks().empty());  // some programs end it with a line
 }
 
-TEST_CASE("vertices that are no points matter only to faces that use them") {
+TEST_CASE("vertices that are not finite matter only to faces that use them") {
   const std::string obj = test::obj_text();
   expect_remark("a.obj", obj + "v nan 0 0\nv 0 inf 0\n", {"a.obj:15", "2 vertices", "nan"});
   expect_remark("a.obj",

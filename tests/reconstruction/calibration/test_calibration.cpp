@@ -122,7 +122,7 @@ TEST_CASE("what is missing, of the wrong size or no number is refused with its p
                              {"inf", "finite"});
 }
 
-TEST_CASE("files that are no calibrations are refused, wherever they end") {
+TEST_CASE("files that are not calibrations are refused, wherever they end") {
   const TemporaryFolder folder;
   const auto refused = [&](std::string_view bytes, std::string_view message) {
     const auto file = folder.write("camera.yml", bytes);

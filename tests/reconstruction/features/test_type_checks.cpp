@@ -19,7 +19,7 @@ void expect_feature_refused(std::vector<ObjectFeature> features, const std::stri
 
 }  // namespace
 
-TEST_CASE("types that are none are refused") {
+TEST_CASE("invalid types are refused") {
   expect_refused(
       [] {
         MemoryKnowledgeBase({cube_type("a"), cube_type("a")});

@@ -91,7 +91,7 @@ TEST_CASE("a photograph has things where OpenCV projects them, with a lens and w
   }
 }
 
-TEST_CASE("lenses that fold the image over, and coefficients that are no numbers, are refused") {
+TEST_CASE("lenses that fold the image over, and coefficients that are not finite, are refused") {
   const auto refused = [](const Distortion& distortion, const char* message) {
     expect_bad_input("distortion", message, [&] { Lens(kLensIntrinsics, distortion); });
     ColorSensor sensor;

@@ -143,7 +143,7 @@ TEST_CASE("placement: bodies keep off what is fixed, and may stand in its hollow
   CHECK(in_hollow >= 1);
 }
 
-TEST_CASE("placement: as many bodies stand upright as one asks for") {
+TEST_CASE("placement: the requested share of bodies stands upright") {
   const Bodies rods(30, shared(rod(0.008, 0.06, 16)));  // by itself one in seventy stands
   const Box field({0, 0, 0}, {1, 1, 1});
   CHECK(count_upright(place_at_rest(rods, {}, {field, 1, 0.002, 1})) == 30);

@@ -46,7 +46,7 @@ struct PlanRequest {
   SearchOptions search = {};
   ViewSequenceOptions views = {};
   /// How the work area is classified, what hides from a new view, and how noisy depths are: its
-  /// `noise` is the only noise model of a request, and a D435's unless you say your sensor's.
+  /// `noise` is the only noise model of a request, and a D435's unless you set your sensor's.
   VolumeOptions volume = {};
 
   /// `gain` over the floor of the constraints, which it is reckoned with.

@@ -40,7 +40,7 @@ struct ScoreTerm {
 /// A method of scoring views (thesis 7.1 to 7.4): the larger the score, the better the view.
 ///
 /// Immutable; every method may be called from many threads at once. Work on one call is not split
-/// over threads: whoever scores many views does that. An exact score does not depend on what else
+/// over threads: callers that score many views do that. An exact score does not depend on what else
 /// is asked, nor on `needed`; bounds may.
 class VANTAGE_API ViewScorer {
  public:

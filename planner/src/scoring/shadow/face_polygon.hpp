@@ -38,7 +38,7 @@ struct FacePolygon {
   double nearest_m;      ///< no ray meets it nearer than this, unless it is grazing
   double farthest_m;     ///< nor farther than this
   bool grazing;          ///< seen from so flat that nothing is known of its rays' depths
-  std::uint32_t origin;  ///< whoever makes the polygon may note here what it is of
+  std::uint32_t origin;  ///< the polygon's maker may note here what it is of
 };
 
 /// Projects faces into one camera, group by group.

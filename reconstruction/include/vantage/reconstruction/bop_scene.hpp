@@ -32,7 +32,7 @@ struct BopScene {
   std::filesystem::path folder;
   std::vector<BopImage> images;              ///< ascending by id, never empty
   std::vector<std::filesystem::path> files;  ///< every file that was read
-  std::vector<std::string> warnings = {};    ///< for people; each names the file that it is about
+  std::vector<std::string> warnings = {};    ///< warnings for the user; each names its file
 };
 
 /// Reads `scene_camera.json` and the images of the folder depth; of those in rgb, or else gray,

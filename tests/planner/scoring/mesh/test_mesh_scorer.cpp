@@ -238,7 +238,7 @@ TEST_CASE("noise is filtered out in a hall, too, by larger voxels") {
   CHECK(bench.opened->geometry().voxel_size_m() == doctest::Approx(0.025 / 3));
 }
 
-TEST_CASE("the mesh method says what it cannot do without") {
+TEST_CASE("the mesh method reports what it needs") {
   const WorldModel blind = test::wall_world();
   const Box area = test::random_workcell_area();
   test::expect_bad_input("method", "none of the 1 cameras has one",
