@@ -87,7 +87,7 @@ PlanningCell cell_number(const ExpectedGainCommandOptions& options, std::size_t 
   return cell;
 }
 
-void refuse_unused(const ExpectedGainCommandOptions& options) {
+void check_unused(const ExpectedGainCommandOptions& options) {
   VolumeOptions volume;
   read_given(options.given, {"", "", {}, {fields_of(volume)}});
   refuse_unused_filter(options.given, volume);
@@ -96,7 +96,7 @@ void refuse_unused(const ExpectedGainCommandOptions& options) {
 /// What was finished before a stop is still reported.
 ExitCode evaluate(const ExpectedGainCommandOptions& options) {
   InterruptibleRun run(options.threads);
-  refuse_unused(options);
+  check_unused(options);
   std::vector<GainMethod> methods;
   for (const std::string& name : options.methods) methods.push_back(gain_method(name));
   const std::size_t count = options.cells.size() + std::size_t(options.random);

@@ -100,7 +100,7 @@ void read_sizes(const std::string& text, ReconstructionEvaluationOptions& settin
   if (dash + 1 < text.size()) settings.max_cameras = number_of(view.substr(dash + 1), text);
 }
 
-void refuse_unused(const EvaluationCommandOptions& options) {
+void check_unused(const EvaluationCommandOptions& options) {
   const Perturbation& perturbation = options.settings.perturbation;
   const bool perturbed =
       perturbation.noise_px > 0 || perturbation.drop > 0 || perturbation.wrong_ids > 0;
@@ -133,7 +133,7 @@ void EvaluationCommandOptions::add_to(CLI::App& verb) {
 
 void EvaluationCommandOptions::resolve() {
   read_given(given, fields_of(*this));
-  refuse_unused(*this);
+  check_unused(*this);
   const SceneReconstructionOptions reconstruction = options_of(how);
   settings.observe = reconstruction.observe;
   settings.reconstruct = reconstruction.options;
@@ -144,12 +144,12 @@ void EvaluationCommandOptions::resolve() {
 }
 
 nlohmann::ordered_json EvaluationCommandOptions::config() const {
-  nlohmann::ordered_json json = config_of(how);
-  json.erase("method");
-  json.update({{"dataset", dataset.string()}, {"workcell", workcell.string()}, {"images", images}});
+  nlohmann::ordered_json result = config_of(how);
+  result.erase("method");
+  result.update({{"dataset", dataset.string()}, {"workcell", workcell.string()}, {"images", images}});
   EvaluationCommandOptions described = *this;
-  json.update(to_json(fields_of(described)));
-  return json;
+  result.update(to_json(fields_of(described)));
+  return result;
 }
 
 }  // namespace vantage

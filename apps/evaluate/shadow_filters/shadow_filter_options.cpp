@@ -92,10 +92,10 @@ void ShadowFilterCommandOptions::resolve() {
 }
 
 nlohmann::ordered_json ShadowFilterCommandOptions::config() const {
-  nlohmann::ordered_json json{{"scenes", scenes}};
+  nlohmann::ordered_json result{{"scenes", scenes}};
   ShadowFilterCommandOptions described = *this;
-  json.update(to_json(fields_of(described)));
-  return json;
+  result.update(to_json(fields_of(described)));
+  return result;
 }
 
 }  // namespace vantage
