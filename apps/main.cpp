@@ -38,19 +38,20 @@ void add_commands(CLI::App& app, Action& action) {
   add_evaluate_command(app, action);
 }
 
-/// No file, folder or name that an option takes is empty; a shell variable that is not set is.
+/// No option takes an empty file, folder or name; an unset shell variable gives one.
 void refuse_empty_values(const CLI::App& app) {
   for (const CLI::Option* option : app.get_options()) {
     if (option->count() == 0 || option->get_expected_max() == 0) continue;
     for (const std::string& value : option->results()) {
       if (!value.empty()) continue;
-      throw UsageError(option->get_name() + ": found an empty text; give a value, or leave it out");
+      throw UsageError(option->get_name() +
+                       ": found an empty value; give one, or leave the option out");
     }
   }
   for (const CLI::App* verb : app.get_subcommands()) refuse_empty_values(*verb);
 }
 
-/// Help and versions go to stdout, mistakes to stderr.
+/// Help and version go to stdout, errors to stderr.
 ExitCode answer(const CLI::App& app, const CLI::ParseError& error) {
   std::ostringstream out, err;
   const bool asked = app.exit(error, out, err) == 0;
@@ -71,7 +72,7 @@ ExitCode run(int argc, char** argv) {
     return answer(app, error);
   }
   refuse_empty_values(app);
-  instruction_set();  // a wrong VANTAGE_MAX_ISA is said before any work
+  instruction_set();  // a wrong VANTAGE_MAX_ISA is reported before any work
   return action();
 }
 
@@ -96,10 +97,10 @@ ExitCode run_guarded(int argc, char** argv) {
     return used_up ? ExitCode::out_of_resources : ExitCode::bad_input;
   } catch (const std::exception& error) {
     if (const std::string resource = used_up_resource(error); !resource.empty()) {
-      spdlog::error("the system gives no more {}", resource);
+      spdlog::error("out of {}", resource);
       return ExitCode::out_of_resources;
     }
-    spdlog::error("this is a bug of vantage, please report it: {}", error.what());
+    spdlog::error("this is a bug in vantage, please report it: {}", error.what());
     return ExitCode::failure;
   }
 }

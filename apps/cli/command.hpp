@@ -2,6 +2,8 @@
 
 #include <CLI/CLI.hpp>
 #include <functional>
+#include <memory>
+#include <type_traits>
 
 #include "cli/exit_code.hpp"
 
@@ -9,6 +11,14 @@ namespace vantage {
 
 /// What the verb on the command line does; set by the verb's callback while parsing.
 using Action = std::function<ExitCode()>;
+
+/// Makes `run` the action if the command line has this verb; parsing fills `options` before.
+template <class Options>
+void set_action(CLI::App& verb, Action& action, const std::shared_ptr<Options>& options,
+                ExitCode (*run)(std::type_identity_t<const Options&>)) {
+  verb.parse_complete_callback(
+      [&action, options, run] { action = [options, run] { return run(*options); }; });
+}
 
 void add_plan_command(CLI::App& app, Action& action);
 void add_demo_command(CLI::App& app, Action& action);

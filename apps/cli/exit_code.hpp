@@ -8,7 +8,7 @@ namespace vantage {
 /// What the process returns.
 enum class ExitCode {
   ok = 0,
-  failure = 1,  ///< a bug of ours: nothing that the user can mend
+  failure = 1,  ///< a bug of ours: nothing that the user can fix
   usage = 2,
   bad_input = 3,
   no_feasible_view = 4,

@@ -9,7 +9,7 @@
 namespace vantage {
 namespace {
 
-constexpr std::string_view kExpert = ", for experts";
+constexpr std::string_view kExpert = ", expert options";
 constexpr std::size_t kIndent = 2, kColumn = 30, kWidth = 100;
 
 bool is_expert(const std::string& group) {
@@ -113,15 +113,15 @@ std::string HelpFormatter::make_footer(const CLI::App* app) const {
   const bool hides = !all_ && std::ranges::any_of(app->get_groups(), is_expert);
   std::string footer = app->get_footer();
   if (hides)
-    footer += (footer.empty() ? "" : "\n\n") +
-              std::string("`--help-all` lists the options for experts, too.");
+    footer +=
+        (footer.empty() ? "" : "\n\n") + std::string("`--help-all` also lists the expert options.");
   return footer.empty() ? footer : footer + '\n';
 }
 
 void set_up_help(CLI::App& app) {
   app.formatter(std::make_shared<HelpFormatter>());
   app.set_help_flag("-h,--help", "Print this help");
-  app.set_help_all_flag("--help-all", "Print the help with the options for experts");
+  app.set_help_all_flag("--help-all", "Print this help and the expert options");
 }
 
 }  // namespace vantage

@@ -10,7 +10,7 @@
 namespace vantage {
 namespace {
 
-/// Not a number for text that is none.
+/// NaN for text that is not a number.
 double number_of(const std::string& text) {
   char* end = nullptr;
   const double number = std::strtod(text.c_str(), &end);

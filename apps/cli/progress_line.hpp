@@ -14,7 +14,7 @@ class ProgressLine {
   ProgressLine(std::string what, const StopToken& token);
 
  private:
-  std::jthread thread_;  // stops and joins when the line goes
+  std::jthread thread_;  // stops and joins when the line is destroyed
 };
 
 }  // namespace vantage

@@ -11,10 +11,10 @@
 
 namespace vantage {
 
-/// The threads that a command works with: as many as its user said, or as the machine has.
+/// The threads that a command works with: as many as its user asked for, or one per core.
 class Workers {
  public:
-  /// @param threads 0: all that the machine has.
+  /// @param threads 0: one per core.
   /// @throws Error out_of_resources if they cannot be started.
   explicit Workers(int threads)
       : count_(startable(threads > 0 ? threads : tbb::info::default_concurrency())),
@@ -31,7 +31,7 @@ class Workers {
   static int startable(int count) { return check_threads_start(count - 1), count; }
 
   int count_;
-  tbb::global_control allow_;  // more than the machine has, too
+  tbb::global_control allow_;  // also more than there are cores
   tbb::task_arena arena_;
 };
 

@@ -3,7 +3,7 @@
 namespace vantage {
 
 void add_evaluate_command(CLI::App& app, Action& action) {
-  CLI::App* verb = app.add_subcommand("evaluate", "Hold results against the truth");
+  CLI::App* verb = app.add_subcommand("evaluate", "Compare results with the ground truth");
   verb->require_subcommand(1);
   add_evaluate_gain(*verb, action);
   add_evaluate_expected_gain(*verb, action);

@@ -22,16 +22,16 @@ using Json = nlohmann::ordered_json;
 
 constexpr const char* kImportRecord = "import.json";
 
-/// Refuses to mix a dataset with what somebody else has put there.
+/// Refuses to mix a dataset with other files.
 void claim(const fs::path& folder) {
   if (fs::exists(folder) && !fs::is_directory(folder)) {
-    throw bad_input(folder.string(), "there is a file of this name; name a folder for the dataset");
+    throw bad_input(folder.string(), "a file has this name; name a folder for the dataset");
   }
   if (fs::is_directory(folder) && !fs::is_empty(folder) &&
       !fs::is_regular_file(folder / kImportRecord)) {
     throw bad_input(folder.string(),
-                    "the folder is not empty, and what is in it was not imported; "
-                    "name another one, so that nothing is lost");
+                    "the folder is not empty, and its files were not written by an import; name "
+                    "another one, so that nothing is lost");
   }
   for (const char* name : {"rgb", "depth"}) {
     fs::remove_all(folder / name);
@@ -45,8 +45,9 @@ std::vector<int> chosen(const ImportedDataset& dataset, const ImportChoice& choi
   std::vector<int> ids;
   for (const int id : choice.images) {
     if (id >= 0 && id < count) continue;
-    throw bad_input("--images", fmt::format("image {} was asked for; there are {}, from 0 to {}",
-                                            id, count, count - 1));
+    throw bad_input("--images",
+                    fmt::format("there is no image {}; there are {}, numbered from 0 to {}", id,
+                                count, count - 1));
   }
   for (int id = 0; id < count; ++id) {
     const bool asked =
@@ -55,8 +56,8 @@ std::vector<int> chosen(const ImportedDataset& dataset, const ImportChoice& choi
   }
   if (ids.empty()) {
     throw bad_input("SOURCE",
-                    "no image is left of it; ask for others with --images and --every, or "
-                    "see the warnings for why they were left out");
+                    "no image is left; choose others with --images and --every, or see the "
+                    "warnings for why images were left out");
   }
   return ids;
 }
@@ -108,15 +109,15 @@ std::string write_lenses(const ImportedDataset& dataset, const std::vector<int>&
   return option;
 }
 
-/// Colour of another size than depth is of no use: they share one set of intrinsics.
+/// Colour images of another size than the depth images cannot be used: they share one set of
+/// intrinsics.
 void leave_out_colour(const std::vector<int>& ids, const fs::path& folder,
                       ImportedDataset& dataset) {
   fs::remove_all(folder / "rgb");
   for (const int id : ids) dataset.images[std::size_t(id)].color.clear();
   dataset.warnings.push_back(
-      "the pictures are of another size than the depth images and were left out; the intrinsics "
-      "are "
-      "those of depth");
+      "the pictures are not as large as the depth images and were left out; the intrinsics are "
+      "those of the depth images");
 }
 
 /// What the dataset's own reader makes of what was written.
@@ -143,7 +144,7 @@ Json write_imported(ImportedDataset& dataset, const ImportChoice& choice, const 
   if (!all_depth && std::ranges::any_of(ids, has_depth)) {
     const int id = *std::ranges::find_if_not(ids, has_depth);
     throw bad_input(dataset.images[std::size_t(id)].name,
-                    "has no depth image, and others have; choose with --images those that do");
+                    "has no depth image, but other images do; choose those with --images");
   }
   claim(folder);
   Json cameras = Json::object();

@@ -35,20 +35,19 @@ ImportedDataset read_source(const ImportOptions& options) {
   const bool is_tum = detect_tum(source);
   if (lens && !is_tum) {
     throw bad_input("--calibration",
-                    "only a TUM RGB-D folder lacks intrinsics; this one is of "
-                    "another format, and has its own");
+                    "only a TUM RGB-D folder needs a calibration; this recording's format has its "
+                    "own intrinsics; leave the option out");
   }
   if (is_tum) return read_tum(source, lens);
   if (detect_nerfstudio(source)) return read_nerfstudio(source);
   if (detect_colmap(source)) return read_colmap(source);
   if (detect_scannet(source)) return read_scannet(source);
-  throw bad_input(
-      source.string(),
-      is_bop_scene(source)
-          ? "is a BOP scene, which vantage reads as it is; no import is needed"
-          : "is of no format that can be imported; expected rgb.txt and depth.txt (TUM RGB-D), "
-            "transforms.json (nerfstudio), cameras.txt and images.txt (COLMAP), or pose/ and "
-            "intrinsic/ (ScanNet)");
+  throw bad_input(source.string(),
+                  is_bop_scene(source)
+                      ? "is a BOP scene, which vantage reads directly; no import is needed"
+                      : "has no format that can be imported; expected rgb.txt and depth.txt (TUM "
+                        "RGB-D), transforms.json (nerfstudio), cameras.txt and images.txt "
+                        "(COLMAP), or pose/ and intrinsic/ (ScanNet)");
 }
 
 std::string summary_of_import(const nlohmann::ordered_json& record, const fs::path& folder) {
@@ -57,7 +56,7 @@ std::string summary_of_import(const nlohmann::ordered_json& record, const fs::pa
       "format     {}\nimages     {}{}\nnext       vantage plan {}{} --workcell FILE\n",
       record["format"].get<std::string>(), record["images"].size(),
       record["depth"].get<bool>()
-          ? fmt::format(", depth of {} mm a count", record["depth_scale_mm"].get<double>())
+          ? fmt::format(", depth with {} mm per count", record["depth_scale_mm"].get<double>())
           : ", without depth",
       folder.string(), calibration.empty() ? "" : " --calibration " + calibration);
 }
@@ -80,12 +79,12 @@ ExitCode import_dataset(const ImportOptions& options) {
 
 void add_import_command(CLI::App& app, Action& action) {
   CLI::App* verb = app.add_subcommand(
-      "import", "Make a dataset of a recording by TUM RGB-D, nerfstudio, COLMAP or ScanNet");
+      "import", "Convert a TUM RGB-D, nerfstudio, COLMAP or ScanNet recording into a dataset");
   const auto options = std::make_shared<ImportOptions>();
-  verb->add_option("source", options->source, "Folder of the recording; its format is found out")
+  verb->add_option("source", options->source, "Folder of the recording; its format is detected")
       ->required();
   add_output_option(*verb, options->folder, "the dataset")->required();
-  verb->add_option("--every", options->choice.every, "Take each N-th image only")
+  verb->add_option("--every", options->choice.every, "Take every N-th image only")
       ->option_text("N")
       ->check(CLI::Range(1, 1000000))
       ->capture_default_str()
@@ -95,7 +94,7 @@ void add_import_command(CLI::App& app, Action& action) {
       ->delimiter(',')
       ->group("Input");
   verb->add_option("--depth-scale-mm", options->choice.depth_scale_mm,
-                   "Millimetres of one count of the depth images, if not as the format has it")
+                   "Millimetres per count of the depth images (default: the format's)")
       ->check(positive_number())
       ->group("Input");
   verb->add_option("--calibration", options->calibration,
@@ -108,8 +107,7 @@ void add_import_command(CLI::App& app, Action& action) {
       "  vantage import rgbd_dataset_freiburg1_desk --every 20 -o desk\n"
       "  vantage import my_nerfstudio_capture --images 0,12,31 -o capture\n"
       "  vantage import my_colmap_project --depth-scale-mm 0.25 -o project");
-  verb->parse_complete_callback(
-      [&action, options] { action = [=] { return import_dataset(*options); }; });
+  set_action(*verb, action, options, import_dataset);
 }
 
 }  // namespace vantage

@@ -25,7 +25,7 @@ struct ImportedDataset {
   std::string format;         ///< e.g. "TUM RGB-D"
   double depth_scale_mm = 1;  ///< millimetres of one count of the depth images
   std::vector<ImportedImage> images = {};
-  std::vector<std::filesystem::path> files = {};  ///< that were read for it, but for the images
+  std::vector<std::filesystem::path> files = {};  ///< that were read for it, except the images
   std::vector<std::string> warnings = {};         ///< for people
 };
 

@@ -72,7 +72,7 @@ std::map<int, ColmapCamera> read_cameras(const fs::path& file) {
     if (line.empty()) continue;
     const int id = line.whole(0, "a camera's id");
     if (!cameras.emplace(id, camera_of(line)).second) {
-      throw bad_input(line.place(), fmt::format("camera {} is there twice; remove one", id));
+      throw bad_input(line.place(), fmt::format("camera {} is listed twice; remove one", id));
     }
   }
   return cameras;
@@ -132,9 +132,8 @@ ImportedDataset read_colmap(const fs::path& source) {
   }
   std::ranges::stable_sort(dataset.images, {}, &ImportedImage::name);
   dataset.warnings.push_back(
-      "COLMAP knows no metres: the poses are taken as metres, which holds only for a model that "
-      "was "
-      "brought to scale (colmap model_aligner); compare a length that you know");
+      "COLMAP models have no absolute scale: the poses are taken as metres, which is right only "
+      "for a model that was scaled (colmap model_aligner); check a length that you know");
   return dataset;
 }
 

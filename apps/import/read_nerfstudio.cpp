@@ -44,7 +44,7 @@ class FrameValues {
     const json* found = find(key);
     if (!found || found->is_null()) return std::nullopt;
     if (found->is_string()) return found->get<std::string>();
-    throw bad_input(place(key), fmt::format("found {}; expected a text", shown(*found)));
+    throw bad_input(place(key), fmt::format("found {}; expected text", shown(*found)));
   }
 
  private:
@@ -91,8 +91,9 @@ Distortion distortion_of(const FrameValues& frame) {
 Intrinsics intrinsics_of(const FrameValues& frame) {
   const double w = frame.number("w").value_or(0), h = frame.number("h").value_or(0);
   if (!(w >= 0 && w <= 16384 && h >= 0 && h <= 16384)) {
-    throw bad_input(frame.frame_place(),
-                    fmt::format("w and h are {} and {}; expected pixels", w, h));
+    throw bad_input(
+        frame.frame_place(),
+        fmt::format("w and h are {} and {}; expected the image's size in pixels", w, h));
   }
   Intrinsics k{int(w), int(h)};
   const auto fl_x = frame.number("fl_x"), angle = frame.number("camera_angle_x");

@@ -107,9 +107,10 @@ ImportedDataset read_scannet(const fs::path& source) {
     dataset.images.push_back(std::move(image));
   }
   if (!skipped.empty()) {
-    dataset.warnings.push_back(fmt::format(
-        "{}: left out {} images whose pose is not finite, from {} on: tracking was lost there",
-        source.string(), skipped.size(), skipped.front()));
+    dataset.warnings.push_back(
+        fmt::format("{}: left out {} images whose pose is not finite, the first being {}: tracking "
+                    "was lost there",
+                    source.string(), skipped.size(), skipped.front()));
   }
   return dataset;
 }

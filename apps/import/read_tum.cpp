@@ -12,10 +12,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kMaxApart_s = 0.02;  // what TUM's own associate.py takes for one moment
+constexpr double kMaxApart_s = 0.02;  // the largest difference that TUM's own associate.py matches
 constexpr double kTumScale_mm = 0.2;  // 5000 counts are a metre
 
-/// What a line of the three files says of a moment.
+/// A line of one of the three files, and its time.
 struct TumMoment {
   double time_s;
   TextLine line;
@@ -30,11 +30,12 @@ std::vector<TumMoment> moments(const fs::path& file) {
     all.push_back({time_s, std::move(line)});
   }
   std::ranges::stable_sort(all, {}, &TumMoment::time_s);
-  if (all.empty()) throw bad_input(file.string(), "has no lines; expected times and what was then");
+  if (all.empty())
+    throw bad_input(file.string(), "is empty; expected lines that begin with a time in seconds");
   return all;
 }
 
-/// The moment that is nearest in time; null if none is near.
+/// The line that is nearest in time; null if none is near enough.
 const TumMoment* nearest(const std::vector<TumMoment>& all, double time_s) {
   const auto after = std::ranges::lower_bound(all, time_s, {}, &TumMoment::time_s);
   const TumMoment* best = nullptr;
@@ -73,14 +74,15 @@ Lens tum_lens(const fs::path& source, const std::optional<Lens>& lens, ImportedD
   if (lens) return *lens;
   const auto published = published_intrinsics(source);
   if (!published) {
-    throw bad_input(source.string(),
-                    "a TUM RGB-D folder says nothing of the camera's intrinsics, and its name is "
-                    "none of freiburg1, freiburg2 and freiburg3; give them: --calibration FILE");
+    throw bad_input(
+        source.string(),
+        "a TUM RGB-D folder has no intrinsics, and its name contains none of freiburg1, freiburg2 "
+        "and freiburg3, whose intrinsics are known; give them with --calibration FILE");
   }
-  dataset.warnings.push_back(fmt::format(
-      "{}: intrinsics as TUM published them for this camera, fx {} fy {} cx {} cy {}, without the "
-      "lens' distortion; --calibration FILE gives others",
-      source.string(), published->fx, published->fy, published->cx, published->cy));
+  dataset.warnings.push_back(
+      fmt::format("{}: the intrinsics are those that TUM published for this camera, fx {} fy {} cx "
+                  "{} cy {}, without lens distortion; --calibration FILE replaces them",
+                  source.string(), published->fx, published->fy, published->cx, published->cy));
   return {*published, {}};
 }
 
@@ -102,7 +104,7 @@ ImportedDataset read_tum(const fs::path& source, const std::optional<Lens>& lens
     dataset.files.push_back(poses_file);
   } else {
     dataset.warnings.push_back(fmt::format(
-        "{}: missing, so that no camera has a pose; a board in the workcell locates them",
+        "{}: missing, so no camera has a pose; give the workcell a board to locate them by",
         poses_file.string()));
   }
   std::size_t without_depth = 0, without_pose = 0;

@@ -62,7 +62,7 @@ std::vector<TextLine> read_text_lines(const std::filesystem::path& file) {
   const std::vector<std::uint8_t> bytes = read_file(file, kMaxBytes);
   std::string_view rest(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   if (rest.find('\0') != std::string_view::npos) {
-    throw bad_input(file.string(), "has bytes that are no text; expected lines of words");
+    throw bad_input(file.string(), "is not a text file; expected lines of words");
   }
   std::vector<TextLine> lines;
   for (int number = 1; !rest.empty(); ++number) {

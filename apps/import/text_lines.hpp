@@ -31,7 +31,7 @@ class TextLine {
 };
 
 /// The lines of a file but for comments, which begin with #. Empty lines stay.
-/// @throws Error bad_input as `read_file` does, for more than 256 MiB, and for bytes that are no
+/// @throws Error bad_input as `read_file` does, for more than 256 MiB, and for a file that is not
 /// text.
 std::vector<TextLine> read_text_lines(const std::filesystem::path& file);
 

@@ -13,12 +13,13 @@ FieldGroup fan_fields(ViewFan& fan) {
       kHeading,
       {{.key = "rings",
         .value = &fan.rings,
-        .help = "Rings of further directions at each position: 8 in the first, 16 in the next …",
+        .help =
+            "Rings of additional directions at each position: 8 in the first, 16 in the second …",
         .option = "--rings",
         .range = from_to(0, 50)},
        {.key = "ring_step_rad",
         .value = &fan.step_rad,
-        .help = "Angle from ring to ring",
+        .help = "Angle between rings",
         .option = "--ring-step",
         .unit = "rad",
         .range = from_to(1e-6, std::numbers::pi)}}};
@@ -54,12 +55,12 @@ FieldGroup fields_of(AroundPath& around) {
           kHeading,
           {{.key = "step_m",
             .value = &around.step_m,
-            .help = "Distance from pose to pose along the path",
+            .help = "Distance between poses along the path",
             .unit = "m",
             .range = positive()},
            {.key = "radius_m",
             .value = &around.radius_m,
-            .help = "Radius of the sphere around each of them on which further poses are",
+            .help = "Radius of the sphere around each of these poses that further poses lie on",
             .unit = "m",
             .range = positive()},
            {.key = "count",
@@ -79,20 +80,19 @@ FieldGroup fields_of(CandidateSet& set) {
 Field clearance_field(ViewConstraints& constraints) {
   return {.key = "clearance_m",
           .value = &constraints.clearance_m,
-          .help = "Minimum distance of the camera's body from the floor and everything occupied",
+          .help = "Minimum distance of the camera's body from the floor and from occupied volume",
           .option = "--clearance",
           .unit = "m",
           .range = not_negative()};
 }
 
 Field floor_field(ViewConstraints& constraints) {
-  return {
-      .key = "floor_z_m",
-      .value = &constraints.floor_z_m,
-      .help = "Height of the floor, which the camera has to stay above; none: there is no floor",
-      .option = "--floor-z",
-      .unit = "Z",
-      .none = "none"};
+  return {.key = "floor_z_m",
+          .value = &constraints.floor_z_m,
+          .help = "Height of the floor, which the camera must stay above; none: no floor",
+          .option = "--floor-z",
+          .unit = "Z",
+          .none = "none"};
 }
 
 Field camera_body_field(ViewConstraints& constraints) {
@@ -107,13 +107,13 @@ Field camera_body_field(ViewConstraints& constraints) {
   body.set = [&constraints](const std::string& name) {
     constraints.body = name == "none" ? CameraBody() : CameraBody(d435_body());
   };
-  return {.key = "camera_body",
-          .value = body,
-          .help =
-              "Housing of the movable camera, which has to stay out of everything occupied and "
-              "of everything unseen; d435: a RealSense D435's, 90 x 25 x 25 mm; none: only its "
-              "centre has to",
-          .option = "--camera-body"};
+  return {
+      .key = "camera_body",
+      .value = body,
+      .help =
+          "Housing of the movable camera, which must not enter occupied or unseen volume; d435: a "
+          "RealSense D435's, 90 x 25 x 25 mm; none: only the camera's centre is checked",
+      .option = "--camera-body"};
 }
 
 FieldGroup body_fields(ViewConstraints& constraints) {

@@ -5,6 +5,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <concepts>
 #include <memory>
 
 #include "cli/help_formatter.hpp"
@@ -26,10 +27,17 @@ class FieldOption {
       : field_(field), given_(&given), path_(std::move(path)) {}
 
   void add_to(CLI::App& verb, const std::string& heading) const {
+    const std::string group = field_.expert ? expert_group(heading) : heading;
     const FieldOption self = *this;
+    if (field_.flag) {
+      verb.add_flag_callback(
+              field_.option, [self] { self.put(true); }, field_.help)
+          ->group(group);
+      return;
+    }
     CLI::Option* option = verb.add_option(
         field_.option, [self](const CLI::results_t& texts) { return self.take(texts); }, help());
-    option->group(field_.expert ? expert_group(heading) : heading);
+    option->group(group);
     option->option_text(operand());
     option->type_size(1);
     if (is_vector()) option->expected(3);
@@ -43,10 +51,15 @@ class FieldOption {
   bool holds() const {
     return std::holds_alternative<T>(field_.value);
   }
-  bool is_list() const { return holds<std::vector<int>*>() || holds<std::vector<double>*>(); }
-  bool is_integer() const {
-    return holds<int*>() || holds<std::optional<int>*>() || holds<std::vector<int>*>();
+  bool is_list() const {
+    return holds<std::vector<int>*>() || holds<std::vector<double>*>() || holds<NameList>();
   }
+  bool is_integer() const {
+    return holds<int*>() || holds<std::optional<int>*>() || holds<std::vector<int>*>() ||
+           is_unsigned();
+  }
+  bool is_unsigned() const { return holds<std::uint64_t*>(); }
+  bool is_text() const { return holds<std::string*>() || holds<NameList>(); }
   bool is_switch() const { return holds<bool*>() || holds<std::optional<bool>*>(); }
   const Choice* as_choice() const { return std::get_if<Choice>(&field_.value); }
   bool is_vector() const {
@@ -55,26 +68,39 @@ class FieldOption {
 
   std::vector<std::string> names() const {
     if (as_choice() != nullptr) return as_choice()->names;
+    if (const auto* list = std::get_if<NameList>(&field_.value)) return list->names;
     return is_switch() ? std::vector<std::string>{"on", "off"} : std::vector<std::string>{};
   }
 
   std::string operand() const {
-    if (!names().empty()) return fmt::format("{}", fmt::join(names(), "|"));
-    const std::string number = !field_.unit.empty() ? field_.unit : is_integer() ? "N" : "X";
+    if (!names().empty()) {
+      return fmt::format("{}{}", fmt::join(names(), "|"), is_list() ? ",…" : "");
+    }
     if (is_vector()) return "X Y Z";
+    const std::string number = !field_.unit.empty() ? field_.unit
+                               : is_text()          ? "TEXT"
+                               : is_integer()       ? "N"
+                                                    : "X";
     return is_list() ? number + ",…" : field_.none.empty() ? number : number + "|" + field_.none;
   }
 
   std::string shown_default() const {
     if (!field_.fallback.empty()) return field_.fallback;
-    if (as_choice() != nullptr) return as_choice()->get();
-    if (const auto* v = std::get_if<bool*>(&field_.value)) return **v ? "on" : "off";
-    if (const auto* v = std::get_if<int*>(&field_.value)) return fmt::format("{}", **v);
-    if (const auto* v = std::get_if<double*>(&field_.value)) return fmt::format("{:g}", **v);
-    if (const auto* v = std::get_if<std::optional<double>*>(&field_.value)) {
-      return **v ? fmt::format("{:g}", ***v) : field_.none;
-    }
-    return {};
+    return std::visit(
+        Overloaded{
+            [](const Choice& choice) { return choice.get(); },
+            [](const NameList& list) { return fmt::format("{}", fmt::join(*list.value, ",")); },
+            [](const std::string* v) { return *v; },
+            [](const bool* v) { return std::string(*v ? "on" : "off"); },
+            [](const double* v) { return fmt::format("{:g}", *v); },
+            [&](const std::optional<double>* v) {
+              return *v ? fmt::format("{:g}", **v) : field_.none;
+            },
+            []<std::integral T>(const T* v) { return fmt::format("{}", *v); },
+            [](const std::vector<double>* v) { return fmt::format("{:g}", fmt::join(*v, ",")); },
+            [](const std::vector<int>* v) { return fmt::format("{}", fmt::join(*v, ",")); },
+            [](const auto*) { return std::string(); }},
+        field_.value);
   }
 
   std::string help() const {
@@ -88,10 +114,23 @@ class FieldOption {
       if (std::ranges::find(all, text) != all.end()) return {};
       return fmt::format("found '{}'; expected one of {}", text, fmt::join(all, ", "));
     }
-    if (!field_.none.empty() && text == field_.none) return {};
+    if (is_text() || (!field_.none.empty() && text == field_.none)) return {};
+    if (is_unsigned()) {
+      const auto number = unsigned_of(text);
+      if (number && field_.range.contains(double(*number))) return {};
+      return fmt::format("found '{}'; expected {}", text, unsigned_range(field_).text(true));
+    }
     if (const auto number = parsed(text); number && field_.range.contains(*number)) return {};
     return fmt::format("found '{}'; expected {}{}", text, field_.range.text(is_integer()),
                        field_.none.empty() ? "" : ", or " + field_.none);
+  }
+
+  /// All 64 bits, which a double does not hold.
+  static std::optional<std::uint64_t> unsigned_of(const std::string& text) {
+    std::uint64_t number = 0;
+    const char* end = text.data() + text.size();
+    const auto [stop, error] = std::from_chars(text.data(), end, number);
+    return error == std::errc() && stop == end ? std::optional(number) : std::nullopt;
   }
 
   std::optional<double> parsed(const std::string& text) const {
@@ -110,6 +149,8 @@ class FieldOption {
 
   nlohmann::json json_of(const std::string& text) const {
     if (is_switch()) return text == "on";
+    if (is_text()) return text;
+    if (is_unsigned()) return unsigned_of(text).value();
     if (as_choice() != nullptr || (!field_.none.empty() && text == field_.none)) return text;
     const double number = parsed(text).value();
     return is_integer() ? nlohmann::json(int(number)) : nlohmann::json(number);
@@ -118,9 +159,11 @@ class FieldOption {
   bool take(const CLI::results_t& texts) const {
     nlohmann::json value = nlohmann::json::array();
     for (const std::string& text : texts) value.push_back(json_of(text));
-    object_at(*given_, path_)[field_.key] = is_list() || is_vector() ? value : value.at(0);
+    put(is_list() || is_vector() ? value : value.at(0));
     return true;
   }
+
+  void put(const nlohmann::json& value) const { object_at(*given_, path_)[field_.key] = value; }
 
   Field field_;
   nlohmann::json* given_;

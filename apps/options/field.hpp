@@ -1,6 +1,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
+#include <cstdint>
 #include <functional>
 #include <limits>
 #include <optional>
@@ -64,13 +66,25 @@ Choice choice(Enum& value, const EnumNames<Enum>& names) {
   return all;
 }
 
-/// Where the value is; the struct has to outlive the description.
-using FieldTarget =
-    std::variant<bool*, int*, double*, std::optional<bool>*, std::optional<int>*,
-                 std::optional<double>*, Eigen::Vector3d*, std::optional<Eigen::Vector3d>*,
-                 std::vector<int>*, std::vector<double>*, Choice>;
+/// A list of names, which has to outlive the description.
+struct NameList {
+  std::vector<std::string> names;  ///< the valid ones; empty: any
+  std::vector<std::string>* value = nullptr;
+};
 
-/// One field: everything that there is to say of it.
+/// Where the value is; the struct has to outlive the description.
+using FieldTarget = std::variant<bool*, int*, std::uint64_t*, double*, std::string*,
+                                 std::optional<bool>*, std::optional<int>*, std::optional<double>*,
+                                 Eigen::Vector3d*, std::optional<Eigen::Vector3d>*,
+                                 std::vector<int>*, std::vector<double>*, Choice, NameList>;
+
+/// Functions as one, for `std::visit` of a target.
+template <class... Functions>
+struct Overloaded : Functions... {
+  using Functions::operator()...;
+};
+
+/// Everything about one field.
 struct Field {
   std::string key;            ///< in YAML and JSON; ends with the unit where that is not plain
   FieldTarget value;          ///< its default at first
@@ -81,7 +95,15 @@ struct Field {
   std::string none = {};      ///< a word for no value, where that is a choice of its own
   std::string fallback = {};  ///< what an unset value or an empty list means, for the help
   bool expert = false;        ///< listed by --help-all only
+  bool flag = false;          ///< of a bool: its option stands alone and switches it on
 };
+
+/// The range of a `std::uint64_t`, whose lower bound is 0 where none is given.
+inline ValidRange unsigned_range(const Field& field) {
+  ValidRange range = field.range;
+  range.min = std::max(range.min, 0.0);
+  return range;
+}
 
 /// The fields of a struct, with those of the structs in it.
 struct FieldGroup {

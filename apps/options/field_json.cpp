@@ -9,11 +9,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-template <class... Functions>
-struct Overloaded : Functions... {
-  using Functions::operator()...;
-};
-
 Json vector_json(const Eigen::Vector3d& v) {
   return {v.x(), v.y(), v.z()};
 }
@@ -24,6 +19,7 @@ Json value_json(const Field& field) {
   return std::visit(
       Overloaded{
           [](const Choice& choice) { return choice.get().empty() ? Json() : Json(choice.get()); },
+          [](const NameList& list) { return Json(*list.value); },
           [](const Eigen::Vector3d* v) { return vector_json(*v); },
           [&](const std::optional<Eigen::Vector3d>* v) { return *v ? vector_json(**v) : unset(); },
           [&]<class T>(const std::optional<T>* v) { return *v ? Json(**v) : unset(); },
@@ -51,18 +47,25 @@ std::vector<T> numbers_of(const Value& value, const Field& field) {
 }
 
 void read_field(const Value& value, const Field& field) {
-  std::visit(Overloaded{[&](const Choice& choice) { choice.set(value.as<std::string>()); },
-                        [&](bool* v) { *v = value.as<bool>(); },
-                        [&](std::optional<bool>* v) { *v = value.as<bool>(); },
-                        [&](Eigen::Vector3d* v) { *v = value.vector(); },
-                        [&](std::optional<Eigen::Vector3d>* v) { *v = value.vector(); },
-                        [&]<class T>(std::vector<T>* v) { *v = numbers_of<T>(value, field); },
-                        [&]<class T>(std::optional<T>* v) {
-                          if (value.is_string()) return v->reset();  // the word for none
-                          *v = number_of<T>(value, field);
-                        },
-                        [&]<class T>(T* v) { *v = number_of<T>(value, field); }},
-             field.value);
+  std::visit(
+      Overloaded{[&](const Choice& choice) { choice.set(value.as<std::string>()); },
+                 [&](const NameList& list) { *list.value = value.as<std::vector<std::string>>(); },
+                 [&](std::string* v) { *v = value.as<std::string>(); },
+                 [&](std::uint64_t* v) {
+                   checked(value, value.as<double>(), true, field);
+                   *v = value.as<std::uint64_t>();  // all 64 bits
+                 },
+                 [&](bool* v) { *v = value.as<bool>(); },
+                 [&](std::optional<bool>* v) { *v = value.as<bool>(); },
+                 [&](Eigen::Vector3d* v) { *v = value.vector(); },
+                 [&](std::optional<Eigen::Vector3d>* v) { *v = value.vector(); },
+                 [&]<class T>(std::vector<T>* v) { *v = numbers_of<T>(value, field); },
+                 [&]<class T>(std::optional<T>* v) {
+                   if (value.is_string()) return v->reset();  // the word for none
+                   *v = number_of<T>(value, field);
+                 },
+                 [&]<class T>(T* v) { *v = number_of<T>(value, field); }},
+      field.value);
 }
 
 Json number_schema(const char* type, const Field& field) {
@@ -95,10 +98,25 @@ Json vector_schema() {
   return {{"type", "array"}, {"minItems", 3}, {"maxItems", 3}, {"items", {{"type", "number"}}}};
 }
 
+Json names_schema(const NameList& list) {
+  Json name{{"type", "string"}};
+  if (!list.names.empty()) name["enum"] = list.names;
+  return {{"type", "array"}, {"items", name}};
+}
+
 Json type_schema(const Field& field) {
   return std::visit(
       Overloaded{[](const Choice& choice) {
                    return Json{{"enum", choice.names}};
+                 },
+                 [](const NameList& list) { return names_schema(list); },
+                 [](const std::string*) {
+                   return Json{{"type", "string"}};
+                 },
+                 [&](const std::uint64_t*) {
+                   Field bounded = field;
+                   bounded.range = unsigned_range(field);
+                   return number_schema("integer", bounded);
                  },
                  [](const bool*) {
                    return Json{{"type", "boolean"}};

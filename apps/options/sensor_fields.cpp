@@ -24,13 +24,13 @@ std::vector<Field> effects_of(StereoSensor& depth) {
            .expert = true},
           {.key = "second_imager",
            .value = &depth.second_imager,
-           .help = "No depth where the second imager does not see the surface"},
+           .help = "No depth where the second imager cannot see the surface"},
           {.key = "projector",
            .value = &depth.projector,
            .help = "No depth where the projector's light does not reach the surface"},
           {.key = "projector_m",
            .value = &depth.projector_m,
-           .help = "Where the projector is, from the first imager towards the second",
+           .help = "Position of the projector, from the first imager towards the second",
            .unit = "m"},
           {.key = "max_incidence_rad",
            .value = &depth.max_incidence_rad,
@@ -46,7 +46,8 @@ std::vector<Field> effects_of(StereoSensor& depth) {
            .expert = true},
           {.key = "flying_pixels",
            .value = &depth.flying_pixels,
-           .help = "Share of the pixels at a depth discontinuity that float in between",
+           .help = "Share of the pixels at a depth discontinuity that get a depth in between "
+                   "(flying pixels)",
            .option = "--flying-pixels",
            .range = from_to(0, 1)}};
 }
@@ -58,7 +59,7 @@ FieldGroup fields_of(ColorSensor& color) {
           "Colour images",
           {{.key = "samples_per_pixel",
             .value = &color.samples_per_pixel,
-            .help = "Rays through each pixel of a colour image",
+            .help = "Rays per pixel of a colour image",
             .option = "--samples",
             .range = from_to(1, 4096)},
            {.key = "vignetting",
@@ -87,7 +88,7 @@ FieldGroup fields_of(StereoSensor& depth) {
 Field depth_scale_field(double& depth_scale_mm) {
   return {.key = "depth_scale_mm",
           .value = &depth_scale_mm,
-          .help = "Millimetres that one count of a depth image stands for",
+          .help = "Millimetres per count of the depth images",
           .option = "--depth-scale-mm",
           .unit = "mm",
           .range = from_to(1e-3, 100),

@@ -13,10 +13,10 @@ Field method_field(std::string& method) {
           .value = Choice{method_names(), [&method] { return method; },
                           [&method](const std::string& name) { method = name; }},
           .help =
-              "What a view is worth; voxel: the volume that it would reveal; shadow: the "
-              "shadow in its image, weighted by distance; mesh: the volume that no depth image "
-              "shows, known objects or not; light: the unlit surface that it would light, "
-              "for comparison",
+              "How views are scored; voxel: by the volume that a view would reveal; shadow: by the "
+              "shadow in its image, weighted by depth; mesh: by the volume that no depth image "
+              "shows, with or without known objects; light: by the unlit surface that it would "
+              "light, for comparison",
           .option = "--method"};
 }
 
@@ -60,8 +60,8 @@ Field sensor_field(ViewOptions& options) {
               [&options] { return options.ideal_sensor ? "ideal" : "stereo"; },
               [&options](const std::string& name) { options.ideal_sensor = name == "ideal"; }},
           .help =
-              "How the movable camera measures depth; stereo: as movable_camera.depth says, a "
-              "RealSense D435 without it; ideal: whatever it has in sight",
+              "How the movable camera measures depth; stereo: as movable_camera.depth says, or "
+              "like a RealSense D435; ideal: everything in its line of sight",
           .option = "--sensor"};
 }
 
@@ -94,24 +94,22 @@ FieldGroup travel_fields(ViewOptions& options) {
 }  // namespace
 
 FieldGroup expected_gain_fields(ViewOptions& options) {
-  return {
-      "",
-      "Method",
-      {{.key = "value",
-        .value = choice(options.value, kValues),
-        .help =
-            "Number that method voxel scores views by; expected: the volume that the movable "
-            "camera will really turn from shadow to free or occupied; bound: all that it has in "
-            "sight, as in the thesis",
-        .option = "--value"},
-       sensor_field(options),
-       {.key = "unknown_depth",
-        .value = &options.unknown_depth,
-        .help = "How deep things are whose front was measured, but that no model knows, in "
-                "multiples of their visible width; 0: nothing unknown stands anywhere",
-        .option = "--unknown-depth",
-        .range = not_negative(),
-        .expert = true}}};
+  return {"",
+          "Method",
+          {{.key = "value",
+            .value = choice(options.value, kValues),
+            .help = "What method voxel scores views by; expected: the volume that the movable "
+                    "camera is expected to turn from shadow to free or occupied; bound: all shadow "
+                    "in its line of sight, as in the thesis",
+            .option = "--value"},
+           sensor_field(options),
+           {.key = "unknown_depth",
+            .value = &options.unknown_depth,
+            .help = "Assumed depth of unknown objects whose front was measured, in multiples of "
+                    "their visible width; 0: there are no unknown objects",
+            .option = "--unknown-depth",
+            .range = not_negative(),
+            .expert = true}}};
 }
 
 FieldGroup fields_of(ServoOptions& servo) {
@@ -196,8 +194,8 @@ FieldGroup fields_of(MeshMethod& mesh) {
         .range = from_to(16, 16384)},
        {.key = "exact_views",
         .value = &mesh.exact_views,
-        .help = "Up to this many views, servo iterations included, all are scored exactly; of "
-                "more, a proxy preselects a shortlist",
+        .help = "Number of views, servo iterations included, up to which all are scored exactly; "
+                "if there are more, a proxy preselects a shortlist",
         .option = "--mesh-exact",
         .range = from_to(0, 2147483647),
         .expert = true},
@@ -209,7 +207,7 @@ FieldGroup fields_of(MeshMethod& mesh) {
         .expert = true},
        {.key = "shortlist_voxel_m",
         .value = &mesh.shortlist_voxel_m,
-        .help = "Edge of the voxels that the shortlist is found in",
+        .help = "Edge length of the voxels that the proxy scores in",
         .unit = "m",
         .range = positive()}}};
 }
@@ -262,8 +260,8 @@ Method ViewOptions::chosen() const {
 void ViewOptions::apply(PlanRequest& request) const {
   if (travel_weight_per_m > 0 && !from_m) {
     throw bad_input("travel",
-                    "found a weight of the travel cost, but no start of the journey; expected "
-                    "both: give --from X Y Z, or from_m beside weight_per_m");
+                    "found a travel weight without a start position; expected both: give --from X "
+                    "Y Z, or from_m next to weight_per_m");
   }
   request.method = chosen();
   request.value = value;

@@ -14,7 +14,7 @@ namespace vantage {
 struct ViewOptions {
   std::string method{VoxelMethod::kName};
   ViewValue value = ViewValue::expected;
-  bool ideal_sensor = false;  ///< the movable camera measures all that it has in sight
+  bool ideal_sensor = false;  ///< the movable camera measures everything in its line of sight
   StereoSensor sensor;        ///< else this is how it measures
   double unknown_depth = ExpectedGainOptions().unknown_depth;
   MeshMethod mesh;                        ///< but for its weight and power
@@ -24,14 +24,14 @@ struct ViewOptions {
   PolishOptions polish;
   int ranked = SearchOptions().ranked;
   double travel_weight_per_m = 0;
-  std::optional<Eigen::Vector3d> from_m;  ///< none: journeys cost nothing
+  std::optional<Eigen::Vector3d> from_m;  ///< none: travel costs nothing
   ViewSequenceOptions views;
 
   /// The mesh method as it is asked for, whichever method is chosen.
   MeshMethod mesh_method() const;
 
   /// Puts all of it into a request.
-  /// @throws Error bad_input for a weight of the journey without its start.
+  /// @throws Error bad_input for a travel weight without a start position.
   void apply(PlanRequest& request) const;
 
  private:
@@ -41,7 +41,7 @@ struct ViewOptions {
 // The descriptions point into what they describe.
 
 FieldGroup fields_of(ViewOptions& options);
-/// How the expected gain is reckoned; the sensor itself is described with the movable camera.
+/// How the expected gain is computed; the sensor itself is described with the movable camera.
 FieldGroup expected_gain_fields(ViewOptions& options);
 FieldGroup fields_of(ServoOptions& servo);
 FieldGroup fields_of(PolishOptions& polish);

@@ -44,7 +44,7 @@ FieldGroup fields_of(VolumeOptions& volume) {
             .expert = true},
            {.key = "anti_alias",
             .value = &volume.anti_alias,
-            .help = "Free shadow voxels that have fewer than 5 of 6 neighbours in shadow",
+            .help = "Turn shadow voxels with fewer than 5 of 6 neighbours in shadow free",
             .option = "--anti-alias",
             .fallback = "on with voxels as occluders, else off",
             .expert = true},
@@ -58,12 +58,13 @@ FieldGroup fields_of(VolumeOptions& volume) {
             .expert = true},
            {.key = "filter",
             .value = choice(volume.filter, kFilters),
-            .help = "Take thin shadow, which noise leaves along measured surfaces, for free before "
-                    "planning; auto: if depth images are given and noisy",
+            .help = "Treat thin shadow, which noise leaves along measured surfaces, as free before "
+                    "planning; auto: if there are depth images with noise",
             .option = "--filter"},
            {.key = "filter_m",
             .value = &volume.filter_m,
-            .help = "Edge of the cube that does not fit into thin shadow; at least 3 voxels",
+            .help = "Shadow counts as thin where a cube of this edge length does not fit into it; "
+                    "at least 3 voxels",
             .option = "--filter-edge",
             .unit = "m",
             .range = not_negative(),

@@ -35,8 +35,8 @@ void check_kind(const nlohmann::json& given, const FieldGroup& kind) {
     const auto has_option = [&](const Field* other) { return other->option == field->option; };
     if (!given.contains(field->key) || std::ranges::any_of(all_fields(kind), has_option)) continue;
     throw bad_input(field->option,
-                    "the workcell's candidates do not have this; give --candidates production or "
-                    "full, too, or leave this out");
+                    "the workcell's candidates do not have this setting; also give --candidates "
+                    "production or full, or leave it out");
   }
 }
 

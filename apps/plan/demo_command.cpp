@@ -80,7 +80,7 @@ void add_demo_command(CLI::App& app, Action& action) {
   options->common.add_to(*verb);
   verb->get_option("--output")->capture_default_str();
   add_fields(*verb, {"", "Work area", {voxel_size_field(options->voxel_size_m)}}, options->given);
-  verb->parse_complete_callback([&action, options] { action = [=] { return demo(*options); }; });
+  set_action(*verb, action, options, demo);
 }
 
 }  // namespace vantage

@@ -48,7 +48,7 @@ void add_output_options(CLI::App& verb, PlanCommandOptions& options) {
       ->group("Output");
 }
 
-/// Without pictures these change nothing; the plan is the same, so that a word is enough.
+/// Without pictures these change nothing; the plan is the same, so a warning is enough.
 std::vector<std::string> idle_picture_options(const CLI::App& verb, bool pictures) {
   std::vector<std::string> idle;
   for (const char* option : {"--picture-quality", "--picture-width"}) {

@@ -64,7 +64,7 @@ Workcell workcell_of(const PlanOptions& options) {
   return workcell;
 }
 
-/// Depths so far away, or noise so large, that what is measured says nothing of where surfaces are.
+/// Depths so large, or noise so strong, that measurements do not tell where surfaces are.
 void warn_of_thick_surfaces(const Workcell& workcell, const WorldModel& world,
                             std::vector<std::string>& warnings) {
   const Box& area = workcell.work_area;
@@ -77,12 +77,11 @@ void warn_of_thick_surfaces(const Workcell& workcell, const WorldModel& world,
   const double depth_m = std::min(farthest_m, workcell.sensor_range.far_m);
   const double band_m = workcell.volume.band_sigmas * workcell.volume.noise.sigma_m(depth_m);
   if (band_m < 1 || band_m < 0.5 * side_m) return;
-  warnings.push_back(fmt::format(
-      "depths of {:.0f} m are taken with their noise for surfaces {:.0f} m thick, in a work area "
-      "of "
-      "{:.0f} m: check the depth range and the units of depth and work area, or describe the "
-      "sensor with volume: {{noise: …}}",
-      depth_m, band_m, side_m));
+  warnings.push_back(
+      fmt::format("at depths of {:.0f} m, noise makes measured surfaces {:.0f} m thick, in a work "
+                  "area of {:.0f} m: check the depth range and the units of depth and work area, "
+                  "or describe the sensor with volume: {{noise: …}}",
+                  depth_m, band_m, side_m));
 }
 
 }  // namespace

@@ -16,21 +16,21 @@ void add_input_options(CLI::App& verb, PlanOptions& plan) {
           ->group("Input");
   add_images_option(verb, plan.images);
   verb.add_option("--depth-range", plan.depth_range,
-                  "The depths that the cameras can measure, metres")
+                  "Depth range that the cameras can measure, metres")
       ->option_text("NEAR FAR")
       ->expected(2)
       ->group("Input");
   CLI::Option* area =
       verb.add_option("--work-area", plan.work_area,
-                      "The box to look into: its lower and upper corner, metres, world frame")
+                      "Box whose volume is to be seen: lower and upper corner, metres, world frame")
           ->option_text("X0 Y0 Z0 X1 Y1 Z1")
           ->expected(6)
           ->group("Work area");
   verb.callback([=, &verb] {
     if (workcell->count() + area->count() == 0) {
       throw CLI::ValidationError(verb.get_name(),
-                                 "give --workcell FILE or --work-area X0 Y0 Z0 X1 Y1 Z1: "
-                                 "which volume matters is not in the dataset");
+                                 "give --workcell FILE or --work-area X0 Y0 Z0 X1 Y1 Z1: the "
+                                 "dataset does not say which volume matters");
     }
   });
 }

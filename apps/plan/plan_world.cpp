@@ -50,8 +50,8 @@ void add_located(const BopScene& scene, const ObservedScene& observed, PlanWorld
   plan.files.insert(plan.files.end(), observed.files.begin(), observed.files.end());
 }
 
-/// Objects as the workcell has them. Cameras, too, as the dataset has them; what it leaves open the
-/// board tells.
+/// Objects from the workcell, and cameras from the dataset; cameras without a pose there are
+/// located by the board.
 void use_given(const BopScene& scene, const Workcell& workcell, const ObserveOptions& options,
                const StopToken& stop, PlanWorld& plan) {
   plan.world.objects = known(workcell.known_objects);
@@ -71,7 +71,7 @@ void use_given(const BopScene& scene, const Workcell& workcell, const ObserveOpt
   }
 }
 
-/// Whether it is one of the given objects that was found once more.
+/// Whether it is one of the given objects, found again.
 bool is_given(const KnownObject& found, const std::vector<KnownObject>& given) {
   constexpr double kSameObject_m = 0.03;
   return std::ranges::any_of(given, [&](const KnownObject& object) {
@@ -106,19 +106,20 @@ void use_reconstruction(const BopScene& scene, const Workcell& workcell,
 void use_file(const BopScene& scene, const Workcell& workcell, const fs::path& file,
               PlanWorld& plan) {
   if (!fs::exists(file)) {
-    throw bad_input("--objects",
-                    fmt::format("found {}; expected given, pnp, voting, svd, given+pnp "
-                                "or the like, or a world.json that is there",
-                                file.string()));
+    throw bad_input("--objects", fmt::format("found {}; expected given, pnp, voting, svd, a sum "
+                                             "such as given+pnp, or an existing world.json",
+                                             file.string()));
   }
   WorldFile world = read_world(file, *workcell.knowledge);
   plan.world.objects = std::move(world.objects);
   for (const BopImage& image : scene.images) {
     const auto found = world.T_world_cam.find(image.id);
     if (found == world.T_world_cam.end()) {
-      throw bad_input(file.string(), fmt::format("it says nothing of image {}; reconstruct the "
-                                                 "same images that are to be planned with",
-                                                 image.id));
+      throw bad_input(
+          file.string(),
+          fmt::format(
+              "it does not contain image {}; reconstruct the same images that you plan with",
+              image.id));
     }
     if (found->second) {
       plan.world.cameras.push_back(observer(image, *found->second));
@@ -130,7 +131,7 @@ void use_file(const BopScene& scene, const Workcell& workcell, const fs::path& f
   plan.files.push_back(file);
 }
 
-/// Of options that say how to find objects, where none are to be found.
+/// Refuses options that say how to find objects where none are searched for.
 void refuse_unused_search(const ReconstructCommandOptions& how, bool by_board) {
   const std::string needs = "--objects pnp, voting or svd";
   const ReconstructCommandOptions usual;
@@ -157,6 +158,7 @@ PlanWorld load_plan_world(const fs::path& dataset, const std::vector<int>& image
     refuse_unused_search(source.how, workcell.board.has_value());
     use_given(scene, workcell, options.observe, stop, plan);
   } else if (is_method(method)) {
+    refuse_unused(source.how.no_ambiguous, method == "pnp", "--no-ambiguous", "--objects pnp");
     options.method = reconstruction_method_of(method);
     use_reconstruction(scene, workcell, options, stop, plan);
   } else {

@@ -11,7 +11,7 @@
 
 namespace vantage {
 
-/// Where `vantage plan` has the objects from.
+/// Where `vantage plan` takes the objects from.
 struct ObjectSource {
   /// "given": the workcell's known_objects; a method of reconstruction; or a world.json. Empty:
   /// given if the workcell has any, else found by multi-view PnP if there is something to find them
@@ -25,7 +25,7 @@ struct PlanWorld {
   WorldModel world;
   std::string objects;                       ///< "given", a method's name, or the file
   std::vector<std::filesystem::path> files;  ///< that were read for it, beside the workcell's
-  std::vector<std::string> warnings;         ///< odd images, cameras that could not be located
+  std::vector<std::string> warnings;  ///< inconsistent images, cameras that could not be located
   Intrinsics first_camera;
 };
 

@@ -35,7 +35,7 @@ void CommonOptions::add_to(CLI::App& verb) {
       ->needs(folder)
       ->group("Output");
   verb.add_option("--picture-quality", output.picture_quality,
-                  "How pictures are drawn; a draft takes a fifth of the time")
+                  "Quality of the pictures; a draft takes a fifth of the time")
       ->transform(CLI::CheckedTransformer(kQualities))
       ->option_text("draft|final")
       ->default_str("final")
@@ -45,11 +45,10 @@ void CommonOptions::add_to(CLI::App& verb) {
       ->capture_default_str()
       ->group(expert_group("Output"));
   add_threads_option(verb, threads);
-  verb.add_option(
-          "--deadline-ms", deadline_ms,
-          "Return the best view found within this time, milliseconds; exit code 5 if not "
-          "all candidates were scored by then. Pictures that are not done by then are drawn "
-          "as drafts: some tenths of a second more")
+  verb.add_option("--deadline-ms", deadline_ms,
+                  "Return the best view found within this time, milliseconds; exit code 5 if not "
+                  "all candidates were scored by then. Pictures that are not finished by then are "
+                  "drawn as drafts, which takes some tenths of a second more")
       ->check(number_between(0.0, 1e9))
       ->group("Run");
 }

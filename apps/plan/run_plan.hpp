@@ -27,7 +27,7 @@ struct OutputOptions {
 
 /// How it is to be computed.
 struct RunOptions {
-  int threads = 0;                 ///< 0: as many as the machine has
+  int threads = 0;                 ///< 0: one per core
   StopToken stop = {};             ///< of the planning
   StopToken drawing = {};          ///< of files and draft pictures: it knows no deadline
   StopToken drawing_in_time = {};  ///< of final pictures: it knows the deadline

@@ -14,7 +14,7 @@ void make_output_folder(const std::filesystem::path& folder) {
     const bool full = error == std::errc::no_space_on_device ||
                       error == std::errc::not_enough_memory || error.value() == EDQUOT;
     throw Error(full ? ErrorCode::out_of_resources : ErrorCode::bad_input, folder.string(),
-                "cannot make this folder: " + error.message());
+                "cannot create this folder: " + error.message());
   }
   remove_abandoned_files(folder);
 }

@@ -34,7 +34,8 @@ std::size_t printable_length(std::string_view text) {
   constexpr std::uint32_t kShortest[] = {0, 0, 0x80, 0x800, 0x10000};
   const bool valid = code >= kShortest[length] && code <= 0x10FFFF && code - 0xD800 >= 0x800;
   const bool control = (code < 0x20 && code != '\n' && code != '\t') || (code - 0x7F) < 0x21 ||
-                       code == 0x2028 || code == 0x2029 ||          // line ends that are none here
+                       code == 0x2028 ||
+                       code == 0x2029 ||  // line separators that do not end a line here
                        (code - 0x202A) < 5 || (code - 0x2066) < 4;  // turn what follows around
   return valid && !control ? length : 0;
 }

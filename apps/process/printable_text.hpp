@@ -6,7 +6,7 @@
 namespace vantage {
 
 /// Text that may hold names, values and paths of files, made safe to print: control characters
-/// (which a terminal would obey) and bytes that are no UTF-8 become `\x1b` and the like. Line ends
+/// (which a terminal would obey) and bytes that are not UTF-8 become `\x1b` and the like. Line ends
 /// and tabs stay.
 std::string printable(std::string_view text);
 

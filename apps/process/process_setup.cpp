@@ -75,7 +75,7 @@ int end_code = 1;  // a terminate handler takes no argument
   } catch (...) {
   }
   if (resource == nullptr) std::abort();
-  for (const char* part : {"error: the system gives no more ", resource, "\n"}) {
+  for (const char* part : {"error: out of ", resource, "\n"}) {
     (void)!::write(STDERR_FILENO, part, std::string_view(part).size());
   }
   ::_exit(end_code);

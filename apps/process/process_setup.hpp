@@ -8,8 +8,9 @@ namespace vantage {
 
 /// Readies the process before anything else: messages go to stderr as printable text; writing to a
 /// file that may not grow, or to a reader that is gone, fails instead of ending the process; stdin,
-/// stdout and stderr are open, so that no file of ours gets their numbers; and what a library
-/// throws where nobody can catch it, for want of threads or memory, ends in this exit code.
+/// stdout and stderr are open, so that no file of ours gets their numbers; and exceptions that a
+/// library throws where no handler is reached, for lack of threads or memory, ends with this exit
+/// code.
 void set_up_process(int used_up_exit_code);
 
 /// What an exception says has run out, memory or threads, and what to do; empty for other ones. TBB

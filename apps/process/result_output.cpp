@@ -18,10 +18,10 @@ void write_to_stdout(std::string_view text) {
     const ssize_t count = ::write(STDOUT_FILENO, text.data(), text.size());
     if (count < 0 && errno == EINTR) continue;
     if (count < 0) {
-      throw Error(ErrorCode::out_of_resources, "stdout",
-                  fmt::format("the result cannot be written there: {}; what goes to files was "
-                              "written",
-                              std::generic_category().message(errno)));
+      throw Error(
+          ErrorCode::out_of_resources, "stdout",
+          fmt::format("the result cannot be written there: {}; the output files were written",
+                      std::generic_category().message(errno)));
     }
     text.remove_prefix(std::size_t(count));
   }

@@ -23,7 +23,8 @@ void print_result(bool as_json, const nlohmann::ordered_json& json,
                                                     const nlohmann::ordered_json& json,
                                                     const std::function<std::string()>& summary);
 
-/// The text of a JSON file of ours. Bytes that are no UTF-8, as paths may have them, are replaced.
+/// The text of a JSON file of ours. Bytes that are not UTF-8, which paths may contain, are
+/// replaced.
 template <class Json>
 std::string json_text(const Json& json) {
   return json.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";

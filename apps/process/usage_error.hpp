@@ -4,7 +4,7 @@
 
 namespace vantage {
 
-/// Options that are wrong together, as it turns out after they were parsed: exit code 2.
+/// Options that do not fit together, found after parsing: exit code 2.
 class UsageError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

@@ -40,9 +40,11 @@ std::vector<Lens> lenses_by_id(const BopScene& scene, const std::vector<GivenCal
   std::map<int, fs::path> by_id;
   for (const auto& [image, name] : all) {
     if (!image) {
-      throw bad_input("calibration", fmt::format("{} has no image's id in front, and others have; "
-                                                 "expected all as ID=FILE, or none",
-                                                 name.string()));
+      throw bad_input(
+          "calibration",
+          fmt::format(
+              "{} has no image id in front, but others do; expected ID=FILE for all or for none",
+              name.string()));
     }
     if (!by_id.emplace(*image, name).second) {
       throw bad_input("calibration", fmt::format("image {} has two calibrations; expected one for "
@@ -54,9 +56,10 @@ std::vector<Lens> lenses_by_id(const BopScene& scene, const std::vector<GivenCal
   for (const BopImage& image : scene.images) {
     const auto found = by_id.find(image.id);
     if (found == by_id.end()) {
-      throw bad_input("calibration", fmt::format("image {} has none; expected one for each image: "
-                                                 "{}=FILE",
-                                                 image.id, image.id));
+      throw bad_input(
+          "calibration",
+          fmt::format("image {} has no calibration; expected one for each image: {}=FILE", image.id,
+                      image.id));
     }
     lenses.push_back(lens_of(image, found->second));
   }

@@ -40,7 +40,7 @@ std::set<std::string> markers_in(const ColorImage& picture,
 std::string missing_markers_hint(const ColorImage& picture,
                                  const std::vector<std::string>& dictionaries) {
   if (markers_in(mirrored(picture), dictionaries).size() >= kConvincing) {
-    return "the picture is mirrored: turned left to right, it shows markers of the dictionary";
+    return "the picture is mirrored: flipped left to right, it shows markers of the dictionary";
   }
   std::map<std::string, std::vector<std::string>> by_family;
   for (const std::string& value : markers_in(picture, largest_dictionaries())) {
@@ -49,7 +49,7 @@ std::string missing_markers_hint(const ColorImage& picture,
   const auto most = std::ranges::max_element(
       by_family, {}, [](const auto& family) { return family.second.size(); });
   if (most == by_family.end() || most->second.size() < kConvincing) return {};
-  return fmt::format("the picture shows the markers {}: is the board of another dictionary?",
+  return fmt::format("the picture shows the markers {}: is the board from another dictionary?",
                      fmt::join(most->second, ", "));
 }
 

@@ -118,8 +118,8 @@ BopScene load_dataset(const fs::path& folder, const Workcell& workcell,
   if (calibrations.size() != 1) {
     throw bad_input((folder / "scene_camera.json").string(),
                     "missing; expected a BOP scene folder, or photographs by one camera and its "
-                    "calibration: --calibration camera.yml; recordings by TUM RGB-D, nerfstudio, "
-                    "COLMAP and ScanNet: vantage import");
+                    "calibration (--calibration camera.yml); for recordings by TUM RGB-D, "
+                    "nerfstudio, COLMAP and ScanNet run vantage import first");
   }
   BopScene scene = load_photographs(folder, read_calibration(calibrations.front()).intrinsics(),
                                     workcell.sensor_range);
@@ -130,8 +130,8 @@ BopScene load_dataset(const fs::path& folder, const Workcell& workcell,
   }
   if (!scene.images.empty()) return scene;
   throw bad_input("--images",
-                  "the folder has no photograph with such a number; they count from 0 "
-                  "in the order of their names");
+                  "the folder has no photograph with this number; they are numbered from 0 in the "
+                  "order of their names");
 }
 
 ObservedScene observe(const BopScene& scene, const Workcell& workcell,

@@ -12,7 +12,7 @@
 
 namespace vantage {
 
-/// Who says where a camera is.
+/// Where a camera's pose comes from.
 enum class CameraSource {
   automatic,  ///< the dataset if it has the camera's pose, else the board
   board,      ///< the markers of the board
@@ -52,7 +52,7 @@ BopScene load_dataset(const std::filesystem::path& folder, const Workcell& workc
 /// T_world_cam, and its location says why. Runs in the caller's task arena.
 /// @throws Error bad_input as `read_calibration` and `read_observations` do, for as many
 /// calibrations as there are not images, for observations of images that are not there, for a
-/// camera that nobody can locate: neither pose nor board, and for a picture that is damaged.
+/// camera with neither a pose nor a board to locate it by, and for a picture that is damaged.
 ObservedScene observe(const BopScene& scene, const Workcell& workcell,
                       const ObserveOptions& options, const StopToken& stop = {});
 

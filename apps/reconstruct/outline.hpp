@@ -26,8 +26,8 @@ struct OutlinePiece {
   bool visible = true;  ///< false: behind something else
 };
 
-/// What a draughtsman would draw of an object: its sharp edges and its silhouette, as the camera
-/// sees them through its lens. Pieces are short: under a lens straight lines are curved.
+/// An object's line drawing: its sharp edges and its silhouette, as the camera sees them through
+/// its lens. Pieces are short: under a lens straight lines are curved.
 /// @param scene all that may hide something.
 std::vector<OutlinePiece> outline(const std::vector<MeshEdge>& edges, const Pose& T_world_object,
                                   const Lens& lens, const Pose& T_world_cam, const Scene& scene);

@@ -1,15 +1,13 @@
-#include <spdlog/spdlog.h>
-
 #include <fmt/format.h>
+#include <spdlog/spdlog.h>
 
 #include <memory>
 
 #include "cli/command.hpp"
-#include "cli/progress_line.hpp"
+#include "cli/interruptible_run.hpp"
 #include "cli/run_time.hpp"
 #include "cli/shared_options.hpp"
-#include "cli/signal_handler.hpp"
-#include "cli/workers.hpp"
+#include "options/unused_options.hpp"
 #include "process/output_folder.hpp"
 #include "process/result_output.hpp"
 #include "reconstruct/overlay_picture.hpp"
@@ -58,21 +56,20 @@ WorldRecord record_of(const ReconstructCommand& command, const BopScene& scene,
 
 ExitCode reconstruct_command(const ReconstructCommand& command) {
   const auto start = StopToken::Clock::now();
-  const StopToken stop;
-  const SignalHandler interrupt({stop});
-  Workers workers(command.threads);
+  InterruptibleRun run(command.threads);
+  refuse_unused(command.how.no_ambiguous, command.how.method == "pnp", "--no-ambiguous",
+                "--method pnp");
   SceneReconstructionOptions options = options_of(command.how);
   options.cameras_suffice = true;
   const Workcell workcell = load_workcell(command.workcell);
   const BopScene scene = load_dataset(command.dataset, workcell, command.images, options.observe);
   const double load_s = seconds_since(start);
 
-  const SceneReconstruction reconstruction = workers.execute([&] {
-    const ProgressLine progress("reconstructing", stop);
-    stop.expect(scene.images.size());
-    return reconstruct_scene(scene, workcell, options, stop);
+  const SceneReconstruction reconstruction = run.execute("reconstructing", [&] {
+    run.stop().expect(scene.images.size());
+    return reconstruct_scene(scene, workcell, options, run.stop());
   });
-  if (stop.stop_requested()) return ExitCode::cancelled;
+  if (run.cancelled()) return ExitCode::cancelled;
   const std::vector<KnownObject> objects = known_objects(reconstruction.result);
   WorldRecord record = record_of(command, scene, workcell, reconstruction);
   record.warnings = type_warnings(workcell);
@@ -92,37 +89,40 @@ ExitCode reconstruct_command(const ReconstructCommand& command) {
   const std::optional<Error> lost =
       try_print_result(command.json, json, [&] { return summary_of_world(json); });
   if (!command.folder.empty() && !command.no_pictures) {
-    workers.execute([&] { write_overlays(scene, reconstruction, objects, command.folder, stop); });
+    run.execute(
+        [&] { write_overlays(scene, reconstruction, objects, command.folder, run.stop()); });
   }
   if (lost) throw *lost;
-  return stop.stop_requested() ? ExitCode::cancelled : ExitCode::ok;
+  return run.exit_code();
 }
 
 }  // namespace
 
 void add_reconstruct_command(CLI::App& app, Action& action) {
   CLI::App* verb = app.add_subcommand(
-      "reconstruct", "Find the cameras and the known objects of a recording, by their features");
+      "reconstruct",
+      "Find the camera poses and the known objects of a recording by their features");
   const auto command = std::make_shared<ReconstructCommand>();
   verb->add_option("dataset", command->dataset,
-                   "BOP scene folder; or one with photographs, if there is a calibration")
+                   "BOP scene folder, or a folder of photographs with --calibration")
       ->required();
-  verb->add_option(
-          "--workcell", command->workcell,
-          "Workcell file (YAML) with knowledge_base or board, and board if cameras have no poses")
+  verb->add_option("--workcell", command->workcell,
+                   "Workcell file (YAML) with knowledge_base, board or both; the board is needed "
+                   "where cameras have no poses")
       ->option_text("FILE")
       ->required()
       ->group("Input");
-  add_output_option(*verb, command->folder, "world.json and pictures");
+  CLI::Option* folder = add_output_option(*verb, command->folder, "world.json and pictures");
   add_images_option(*verb, command->images);
   verb->add_option("--method", command->how.method,
-                   "pnp: one pose from the pixels of all cameras; voting: mixes kinds of features; "
-                   "svd: the baseline, single cameras' poses averaged")
+                   "pnp: one pose from the pixels of all cameras; voting: combines different kinds "
+                   "of features; svd: the baseline, which averages single cameras' poses")
       ->check(CLI::IsMember(kReconstructionMethods))
       ->capture_default_str()
       ->group("Known objects");
   command->how.add_to(*verb);
   verb->add_flag("--no-pictures", command->no_pictures, "Do not write overlay_*.png")
+      ->needs(folder)
       ->group("Output");
   add_json_flag(*verb, command->json, "world.json");
   add_threads_option(*verb, command->threads);
@@ -132,8 +132,7 @@ void add_reconstruct_command(CLI::App& app, Action& action) {
       "  vantage reconstruct my_cell --workcell cell.yaml --cameras board --images 0,2 -o out\n"
       "  vantage reconstruct my_cell --workcell cell.yaml --features seen.jsonl --method voting -o "
       "out");
-  verb->parse_complete_callback(
-      [&action, command] { action = [=] { return reconstruct_command(*command); }; });
+  set_action(*verb, action, command, reconstruct_command);
 }
 
 }  // namespace vantage

@@ -21,9 +21,9 @@ void ReconstructCommandOptions::add_to(CLI::App& verb) {
       ->delimiter(',')
       ->option_text("[ID=]FILE,…")
       ->group(heading);
-  verb.add_option("--features", features,
-                  "Detections of other detectors: JSON lines, see "
-                  "assets/schema/observation.schema.json")
+  verb.add_option(
+          "--features", features,
+          "Features from other detectors: JSON lines, see assets/schema/observation.schema.json")
       ->delimiter(',')
       ->option_text("FILE,…")
       ->group(heading);

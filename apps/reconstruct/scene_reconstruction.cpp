@@ -22,12 +22,11 @@ bool check_knowledge(const Workcell& workcell, bool cameras_suffice) {
   const auto& types = workcell.knowledge->types();
   if (std::any_of(types.begin(), types.end(), is_recognisable)) return true;
   if (cameras_suffice && workcell.board && !workcell.board->markers.empty()) return false;
-  throw bad_input(workcell.files.empty() ? "workcell" : workcell.files.front().string(),
-                  types.empty()
-                      ? "there is no knowledge_base, so nothing is known by which objects "
-                        "could be recognised; name its file in the workcell"
-                      : "no type of the knowledge base has features, by which objects "
-                        "could be recognised");
+  throw bad_input(
+      workcell.files.empty() ? "workcell" : workcell.files.front().string(),
+      types.empty()
+          ? "there is no knowledge_base to recognise objects by; name its file in the workcell"
+          : "no type of the knowledge base has features to recognise objects by");
 }
 
 /// The plate of the board, as a thing that hides what is behind it.

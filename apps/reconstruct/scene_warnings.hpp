@@ -8,16 +8,16 @@
 
 namespace vantage {
 
-/// What is odd about how cameras were located: those that were not, and what contradicts the
+/// Warnings about the location of cameras: those that were not located, and what contradicts the
 /// others.
 std::vector<std::string> camera_warnings(const BopScene& scene, const ObservedScene& observed);
 
-/// What is odd about objects that were found. `objects` have their names, in the order of the
+/// Warnings about objects that were found. `objects` have their names, in the order of the
 /// result's.
 std::vector<std::string> object_warnings(const Reconstruction& result,
                                          const std::vector<KnownObject>& objects);
 
-/// What is odd about a workcell's board and types: their meshes' files, and sizes that are likely
+/// Warnings about a workcell's board and types: their meshes' files, and sizes that are likely
 /// millimetres.
 std::vector<std::string> type_warnings(const Workcell& workcell);
 

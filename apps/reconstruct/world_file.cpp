@@ -22,7 +22,7 @@ std::optional<Matrix6d> read_covariance(const Value& object) {
   }
   const double scale = covariance.diagonal().cwiseAbs().maxCoeff();
   if ((covariance - covariance.transpose()).cwiseAbs().maxCoeff() > 1e-6 * scale) {
-    throw object["covariance"].error("not symmetric, so no covariance");
+    throw object["covariance"].error("not symmetric; expected a covariance matrix");
   }
   return covariance;
 }
@@ -59,14 +59,14 @@ WorldFile read_world(const std::filesystem::path& file, const KnowledgeBase& kno
     if (!camera["T_world_cam"].is_null()) pose = read_pose(camera["T_world_cam"]);
     const int image = camera["image"].as<int>();
     if (world.T_world_cam.try_emplace(image, pose).second) continue;
-    throw camera["image"].error(fmt::format("image {} is there twice", image));
+    throw camera["image"].error(fmt::format("image {} is given twice", image));
   }
   std::set<std::string> names;
   for (const Value& object : root["objects"].elements()) {
     world.objects.push_back(read_object(object, knowledge));
     if (names.insert(world.objects.back().name).second) continue;
     throw object["name"].error(
-        fmt::format("the name \"{}\" is there twice", world.objects.back().name));
+        fmt::format("the name \"{}\" is used twice", world.objects.back().name));
   }
   return world;
 }

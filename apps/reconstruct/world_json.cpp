@@ -26,7 +26,7 @@ Json located_json(const LocatedPose& pose) {
           {"rms_px", pose.rms_px}};
 }
 
-/// One camera: where it is, or why nobody knows.
+/// One camera: its pose, or why it is unknown.
 Json camera_json(const BopImage& image, const CameraView& view, const CameraLocation& location) {
   const bool by_board = location.pose || !location.reason.empty();
   const Intrinsics& k = view.lens.intrinsics();
@@ -124,7 +124,7 @@ std::string camera_line(const Json& camera) {
   }
   std::string line = fmt::format("  image {:<4} at {}", camera["image"].get<int>(),
                                  point_text(camera["T_world_cam"]["translation_m"]));
-  if (camera["located_by"] == "dataset") return line + ", as the dataset has it\n";
+  if (camera["located_by"] == "dataset") return line + ", as in the dataset\n";
   const int agreeing = camera["board_markers"].get<int>();
   const int seen = camera["board_markers_seen"].get<int>();
   const std::string markers =

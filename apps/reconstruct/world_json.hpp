@@ -26,7 +26,7 @@ nlohmann::ordered_json world_to_json(const BopScene& scene, const Workcell& work
                                      const std::vector<KnownObject>& objects,
                                      const WorldRecord& record);
 
-/// For people: cameras, objects, and what was left over.
+/// A summary: cameras, objects, and unexplained features.
 std::string summary_of_world(const nlohmann::ordered_json& world);
 
 }  // namespace vantage

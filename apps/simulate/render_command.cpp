@@ -6,11 +6,9 @@
 #include <memory>
 
 #include "cli/command.hpp"
+#include "cli/interruptible_run.hpp"
 #include "cli/picture_file.hpp"
-#include "cli/progress_line.hpp"
 #include "cli/shared_options.hpp"
-#include "cli/signal_handler.hpp"
-#include "cli/workers.hpp"
 #include "simulator/color/color_sensor.hpp"
 #include "simulator/scene/resized_camera.hpp"
 #include "simulator/sheet/contact_sheet.hpp"
@@ -40,7 +38,7 @@ Subject load_subject(const fs::path& file) {
   Subject subject{file.stem().string(), load_workcell(file)};
   place_random_objects(subject.workcell);
   if (subject.workcell.cameras.empty()) {
-    throw bad_input(file.string() + ": cameras", "there are none to look through");
+    throw bad_input(file.string() + ": cameras", "there are no cameras to render");
   }
   return subject;
 }
@@ -107,12 +105,9 @@ std::optional<ColorImage> single(const RenderOptions& options, const StopToken& 
 }
 
 ExitCode render(const RenderOptions& options) {
-  const StopToken stop;
-  const SignalHandler interrupt({stop});
-  Workers workers(options.threads);
-  const std::optional<ColorImage> image = workers.execute([&] {
-    const ProgressLine progress("rendering", stop);
-    return options.contact_sheet ? sheet(options, stop) : single(options, stop);
+  InterruptibleRun run(options.threads);
+  const std::optional<ColorImage> image = run.execute("rendering", [&] {
+    return options.contact_sheet ? sheet(options, run.stop()) : single(options, run.stop());
   });
   if (!image) return ExitCode::cancelled;
   write_picture(options.picture, *image);
@@ -124,17 +119,17 @@ ExitCode render(const RenderOptions& options) {
 
 void add_render_command(CLI::App& app, Action& action) {
   CLI::App* verb =
-      app.add_subcommand("render", "Photograph workcells: one camera's view, or a contact sheet");
+      app.add_subcommand("render", "Render workcells: one camera's view, or a contact sheet");
   const auto options = std::make_shared<RenderOptions>();
   verb->add_option("workcells", options->workcells, "Workcell files (YAML) with cameras")
       ->required();
-  verb->add_option("-o,--output", options->picture, "The picture: .png or .jpg")->required();
-  verb->add_option("--camera", options->camera, "The camera to look through; the first without");
+  verb->add_option("-o,--output", options->picture, "Picture to write: .png or .jpg")->required();
+  verb->add_option("--camera", options->camera, "Camera to render (default: the first)");
   verb->add_flag("--contact-sheet", options->contact_sheet,
-                 "All cameras of all workcells on one picture")
+                 "All cameras of all workcells in one picture")
       ->excludes("--camera");
   verb->add_option("--samples", options->samples,
-                   "Rays through each pixel; with --contact-sheet, of the thumbnails")
+                   "Rays per pixel; with --contact-sheet, per pixel of the thumbnails")
       ->check(CLI::Range(1, 4096))
       ->capture_default_str();
   add_threads_option(*verb, options->threads);
@@ -144,7 +139,7 @@ void add_render_command(CLI::App& app, Action& action) {
       "  vantage render assets/workcells/corridor.yaml --camera left --samples 16 -o left.jpg\n"
       "  vantage render assets/workcells/wall.yaml assets/workcells/duck.yaml --contact-sheet -o "
       "s.jpg");
-  verb->parse_complete_callback([&action, options] { action = [=] { return render(*options); }; });
+  set_action(*verb, action, options, render);
 }
 
 }  // namespace vantage

@@ -6,14 +6,13 @@
 
 #include "cli/command.hpp"
 #include "cli/help_formatter.hpp"
+#include "cli/interruptible_run.hpp"
 #include "cli/number_checks.hpp"
-#include "cli/progress_line.hpp"
 #include "cli/shared_options.hpp"
-#include "cli/signal_handler.hpp"
-#include "cli/workers.hpp"
 #include "options/command_line.hpp"
 #include "options/field_json.hpp"
 #include "options/sensor_fields.hpp"
+#include "options/unused_options.hpp"
 #include "process/result_output.hpp"
 #include "simulate/simulated_dataset.hpp"
 #include "simulate/simulation_record.hpp"
@@ -36,14 +35,14 @@ struct SimulateOptions {
 
 void add_random_options(CLI::App& verb, SimulateOptions& a) {
   SimulationOptions& s = a.settings;
-  verb.add_option("--seed", s.seed, "Random seed of the noise and of random objects");
+  verb.add_option("--seed", s.seed, "Random seed for the noise and the random objects");
   verb.add_option("--objects", s.objects,
                   "Number of objects to lay on the board at random, instead of the workcell's "
                   "random_objects")
       ->check(CLI::Range(0, 10000));
   verb.add_option("--types", s.types,
-                  "Types of the random objects, taken in turns, e.g. red_cube,duck; a name above "
-                  "others in the hierarchy is all of them, e.g. cube")
+                  "Types of the random objects, taken in turn, e.g. red_cube,duck; a parent in the "
+                  "hierarchy, e.g. cube, stands for all types below it")
       ->delimiter(',');
 }
 
@@ -68,10 +67,10 @@ void add_depth_options(CLI::App& verb, SimulateOptions& a) {
   double depth_scale_mm = RecordingOptions().depth_scale_mm;
   add_fields(verb, {"", heading, {depth_scale_field(depth_scale_mm)}, {fields_of(depth)}}, a.given);
   verb.add_flag("--no-second-imager", a.no_second_imager,
-                "Measure depth where the second imager does not see the surface, too")
+                "Measure depth also where the second imager cannot see the surface")
       ->group(expert_group(heading));
   verb.add_flag("--no-projector", a.no_projector,
-                "Measure depth where the projector's light does not reach, too")
+                "Measure depth also where the projector's light does not reach")
       ->group(expert_group(heading));
   verb.add_option("--max-incidence-deg", a.max_incidence_deg,
                   "Largest angle between a surface's normal and the ray that still gets a depth; "
@@ -81,8 +80,9 @@ void add_depth_options(CLI::App& verb, SimulateOptions& a) {
   CLI::Option* ideal = verb.add_flag("--ideal-depth", a.ideal_depth,
                                      "Measure every surface exactly: none of the effects above")
                            ->group(heading);
-  for (const char* effect : {"--depth-noise-px", "--disparity-step-px", "--max-disparity-px",
-                             "--max-incidence-deg", "--border-px", "--flying-pixels"}) {
+  for (const char* effect :
+       {"--depth-noise-px", "--disparity-step-px", "--max-disparity-px", "--max-incidence-deg",
+        "--border-px", "--flying-pixels", "--no-second-imager", "--no-projector"}) {
     ideal->excludes(effect);
   }
 }
@@ -114,22 +114,21 @@ RecordingOptions recording_of(const SimulateOptions& a, const Workcell& workcell
 }
 
 ExitCode simulate(const SimulateOptions& options) {
-  const StopToken stop;
-  const SignalHandler interrupt({stop});
-  Workers workers(options.threads);
-
+  InterruptibleRun run(options.threads);
   Workcell workcell = load_workcell(options.workcell);
   SimulationOptions settings = options.settings;
   settings.recording = recording_of(options, workcell);
+  refuse_unused(!settings.types.empty(),
+                settings.objects.has_value() || workcell.random_objects.has_value(), "--types",
+                "--objects N, or random_objects in the workcell");
   prepare_objects(workcell, settings);
   check_recording(workcell, settings.recording);
   claim_folder(options.folder);
-  const bool complete = workers.execute([&] {
-    const ProgressLine progress("recording", stop);
+  const bool complete = run.execute("recording", [&] {
     const SimulatedCell cell = simulated_cell(workcell);
     const auto json =
         write_simulation_record(options.workcell, workcell, cell, settings, options.folder);
-    if (!record(workcell, cell, settings.recording, options.folder, stop)) return false;
+    if (!record(workcell, cell, settings.recording, options.folder, run.stop())) return false;
     print_result(options.json, json, [&] { return summary_of_simulation(json); });
     return true;
   });
@@ -142,10 +141,11 @@ ExitCode simulate(const SimulateOptions& options) {
 
 void add_simulate_command(CLI::App& app, Action& action) {
   CLI::App* verb = app.add_subcommand(
-      "simulate", "Record a workcell with simulated cameras, as a BOP scene folder with its truth");
+      "simulate",
+      "Record a workcell with simulated cameras, as a BOP scene folder with ground truth");
   const auto options = std::make_shared<SimulateOptions>();
   verb->add_option("workcell", options->workcell,
-                   "Workcell file (YAML) with cameras and what stands before them")
+                   "Workcell file (YAML) with cameras and the objects in front of them")
       ->required();
   add_output_option(*verb, options->folder, "the dataset")->required();
   add_random_options(*verb, *options);
@@ -159,8 +159,7 @@ void add_simulate_command(CLI::App& app, Action& action) {
       "  vantage simulate assets/workcells/clutter.yaml --objects 20 --types red_cube --seed 7 -o "
       "c\n"
       "  vantage simulate assets/workcells/duck.yaml --ideal-depth --samples 64 -o duck");
-  verb->parse_complete_callback(
-      [&action, options] { action = [=] { return simulate(*options); }; });
+  set_action(*verb, action, options, simulate);
 }
 
 }  // namespace vantage

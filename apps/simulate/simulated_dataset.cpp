@@ -57,12 +57,11 @@ RawDepthImage to_counts(const DepthImage& depth, double depth_scale_mm) {
 void check_depth_range(const CellCamera& camera, double depth_scale_mm) {
   const double most = 65535 * depth_scale_mm / kMillimetres, far_m = camera.camera.range().far_m;
   if (far_m <= most) return;
-  throw bad_input(
-      "--depth-scale-mm",
-      fmt::format("{} mm a count reach {} m in 16 bits, but camera {} measures up to {} m; "
-                  "use {} or more, or a nearer sensor.depth_range_m",
-                  depth_scale_mm, most, camera.name, far_m,
-                  std::ceil(far_m * kMillimetres / 65535 * 100) / 100));
+  throw bad_input("--depth-scale-mm",
+                  fmt::format("{} mm per count reach {} m in 16 bits, but camera {} measures up to "
+                              "{} m; use {} or more, or a shorter sensor.depth_range_m",
+                              depth_scale_mm, most, camera.name, far_m,
+                              std::ceil(far_m * kMillimetres / 65535 * 100) / 100));
 }
 
 void write_calibrations(const Workcell& workcell, const RecordingOptions& options,
@@ -94,8 +93,8 @@ std::vector<std::string> calibration_names(const Workcell& workcell,
 void check_recording(const Workcell& workcell, const RecordingOptions& options) {
   if (workcell.cameras.empty()) {
     throw bad_input(workcell.files.front().string() + ": cameras",
-                    "there are none; simulating needs at least one, e.g. \"- {name: front, eye_m: "
-                    "[0, -0.7, 0.4], target_m: [0, 0, 0]}\"");
+                    "there are no cameras; simulating needs at least one, e.g. \"- {name: front, "
+                    "eye_m: [0, -0.7, 0.4], target_m: [0, 0, 0]}\"");
   }
   options.depth.check("depth sensor");
   for (const CellCamera& camera : workcell.cameras) {

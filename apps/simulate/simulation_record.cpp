@@ -94,13 +94,13 @@ void prepare_objects(Workcell& workcell, SimulationOptions& options) {
 
 void claim_folder(const fs::path& folder) {
   if (fs::exists(folder) && !fs::is_directory(folder)) {
-    throw bad_input(folder.string(), "there is a file of this name; name a folder for the dataset");
+    throw bad_input(folder.string(), "a file has this name; name a folder for the dataset");
   }
   if (fs::is_directory(folder) && !fs::is_empty(folder) &&
       !fs::is_regular_file(folder / kRecordName)) {
     throw bad_input(folder.string(),
-                    "the folder is not empty, and what is in it was not simulated; name another "
-                    "one, so that nothing is lost");
+                    "the folder is not empty, and its files were not written by a simulation; name "
+                    "another one, so that nothing is lost");
   }
   make_output_folder(folder);
   fs::remove(folder / "scene_camera.json");

@@ -5,10 +5,8 @@
 
 #include "cli/command.hpp"
 #include "cli/inputs_json.hpp"
-#include "cli/progress_line.hpp"
+#include "cli/interruptible_run.hpp"
 #include "cli/shared_options.hpp"
-#include "cli/signal_handler.hpp"
-#include "cli/workers.hpp"
 #include "options/command_line.hpp"
 #include "options/volume_fields.hpp"
 #include "plan/plan_input.hpp"
@@ -49,13 +47,10 @@ nlohmann::ordered_json json_of(const PlanInput& input) {
 }
 
 ExitCode validate(const ValidateCommand& command) {
-  const StopToken stop;
-  const SignalHandler interrupt({stop});
-  const PlanInput input = Workers(command.threads).execute([&] {
-    const ProgressLine progress("validating", stop);
-    return load_plan_input(command.plan, stop);
-  });
-  if (stop.stop_requested()) return ExitCode::cancelled;
+  InterruptibleRun run(command.threads);
+  const PlanInput input =
+      run.execute("validating", [&] { return load_plan_input(command.plan, run.stop()); });
+  if (run.cancelled()) return ExitCode::cancelled;
   print_result(command.json, json_of(input), [&] { return text_of(input); });
   return input.warnings.empty() ? ExitCode::ok : ExitCode::bad_input;
 }
@@ -63,10 +58,10 @@ ExitCode validate(const ValidateCommand& command) {
 }  // namespace
 
 void add_validate_command(CLI::App& app, Action& action) {
-  CLI::App* verb = app.add_subcommand(
-      "validate",
-      "Check whether a recording and a workcell fit together, and plan nothing: exit code 0 if "
-      "nothing is odd, 3 if something is");
+  CLI::App* verb =
+      app.add_subcommand("validate",
+                         "Check whether a recording and a workcell fit together, without planning: "
+                         "exit code 0 without findings, 3 with findings");
   const auto command = std::make_shared<ValidateCommand>();
   add_input_options(*verb, command->plan);
   Workcell defaults{.work_area = Box({0, 0, 0}, {1, 1, 1})};
@@ -80,8 +75,7 @@ void add_validate_command(CLI::App& app, Action& action) {
       "  vantage validate my_cell --workcell cell.yaml\n"
       "  vantage validate my_cell --work-area -0.4 -0.3 0.01 0.4 0.3 0.3\n"
       "  vantage validate my_cell --workcell cell.yaml --cameras board --json");
-  verb->parse_complete_callback(
-      [&action, command] { action = [=] { return validate(*command); }; });
+  set_action(*verb, action, command, validate);
 }
 
 }  // namespace vantage

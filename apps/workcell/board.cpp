@@ -47,8 +47,7 @@ class FreeMarkers {
  private:
   [[noreturn]] static void fail(const Marker& marker, const std::string& owner, const Value& id) {
     throw id.error(
-        fmt::format("marker {} of {} is that of {}; each of the board's may be there "
-                    "once only",
+        fmt::format("marker {} of {} is also that of {}; each marker may be on the board only once",
                     marker.id, marker.dictionary, owner));
   }
 

@@ -11,7 +11,7 @@ namespace vantage {
 
 /// The objects that cameras could recognise: of some feature's points (a marker's corners) all are
 /// in one camera's view, with nothing in front of them. What has no such feature is left out, but
-/// an object without a type is there: nobody needs to find it.
+/// an object without a type is kept: it does not have to be recognised.
 /// @param truth everything that stands there.
 std::vector<PlacedObject> recognisable_objects(std::span<const PlacedObject> objects,
                                                std::span<const PinholeCamera> cameras,

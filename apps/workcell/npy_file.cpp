@@ -19,13 +19,13 @@ constexpr std::size_t kLongestHeader = std::size_t(1) << 16;
 void check_header(const NpyHeader& header, const std::string& where) {
   if (header.type != "|b1" && header.type != "|u1") {
     throw bad_input(where, fmt::format("its elements are \"{}\"; expected \"|b1\" (bool) or "
-                                       "\"|u1\" (uint8): convert it by array.astype(bool)",
+                                       "\"|u1\" (uint8): convert it with array.astype(bool)",
                                        header.type));
   }
   if (header.fortran_order) {
-    throw bad_input(where,
-                    "it is in Fortran's order; expected C's: convert it by "
-                    "numpy.ascontiguousarray(array)");
+    throw bad_input(
+        where,
+        "it is in Fortran order; expected C order: convert it with numpy.ascontiguousarray(array)");
   }
   const bool fits = header.shape.size() == 3 &&
                     std::ranges::all_of(header.shape, [](std::int64_t n) { return n >= 1; });

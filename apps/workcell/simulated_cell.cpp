@@ -33,9 +33,9 @@ SimulatedCell simulated_cell(const Workcell& workcell) {
   bodies.add_all(BodyKind::known_object, workcell.known_objects);
   bodies.add_all(BodyKind::foreign_object, workcell.foreign_objects);
   if (bodies.shapes.empty()) {
-    throw bad_input("workcell",
-                    "nothing stands in the cell; give it a board, static_structures, "
-                    "known_objects or foreign_objects");
+    throw bad_input(
+        "workcell",
+        "the cell is empty; give it a board, static_structures, known_objects or foreign_objects");
   }
   return {SimulatedScene(std::move(bodies.shapes)), std::move(bodies.names)};
 }

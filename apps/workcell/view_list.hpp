@@ -14,7 +14,7 @@ Pose read_looking_at(const Value& value);
 
 /// The poses of a file of views, as assets/schema/views.schema.json describes it; YAML or JSON.
 /// @throws Error bad_input with file, line and key for what is not as the schema has it, and for
-/// poses that are none.
+/// invalid poses.
 std::vector<Pose> read_view_file(const std::filesystem::path& file);
 
 /// The poses of a value that is a list of views, or that names a file of them, relative to

@@ -54,8 +54,9 @@ std::vector<CellCamera> read_cameras(const Value& value, const Workcell& workcel
     const std::string name = element["name"].as<std::string>();
     const auto [first, is_new] = places.try_emplace(name, element["name"].place());
     if (!is_new) {
-      throw element["name"].error(fmt::format(
-          "the name \"{}\" is taken by {}; cameras' names have to differ", name, first->second));
+      throw element["name"].error(
+          fmt::format("the name \"{}\" is already used by {}; camera names must be unique", name,
+                      first->second));
     }
     const Intrinsics intrinsics = element.has("intrinsics") ? read_intrinsics(element["intrinsics"])
                                                             : workcell.sensor_intrinsics;

@@ -44,7 +44,7 @@ struct Workcell {
   std::vector<PlacedObject> static_structures = {};   ///< may lie outside the work area
   std::vector<PlacedObject> known_objects = {};
   std::vector<PlacedObject> foreign_objects =
-      {};  ///< stand there too, but only the simulator knows
+      {};  ///< are there, too, but only the simulator knows them
   std::optional<Board> board = {};
   std::vector<CellCamera> cameras = {};              ///< for the simulator
   std::optional<RandomObjects> random_objects = {};  ///< not placed yet: `place_random_objects`
@@ -58,9 +58,9 @@ struct Workcell {
 /// base, the board, views, a reach map.
 /// @param usual where the movable camera may be, as far as the file says nothing of it.
 /// @throws Error bad_input with file, line and key for anything that is not as the schema has it, a
-/// box without volume, a quaternion that is none, ranges the wrong way round, a name used twice, a
-/// type that the knowledge base does not have, a marker of the board that a type has too, and a
-/// file that is not there; with the mesh file for one that is damaged; as `FileKnowledgeBase`,
+/// box without volume, an invalid quaternion, ranges the wrong way round, a name used twice, a type
+/// that the knowledge base does not have, a marker of the board that a type has too, and a file
+/// that is not there; with the mesh file for one that is damaged; as `FileKnowledgeBase`,
 /// `read_candidates` and `read_constraints` do.
 Workcell load_workcell(const std::filesystem::path& path, const ViewConstraints& usual = {});
 

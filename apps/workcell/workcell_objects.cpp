@@ -20,10 +20,10 @@ TriangleMesh read_mesh_of(const Value& value, const std::filesystem::path& folde
 /// Keys that the schema cannot tie to others.
 void check_keys(const Value& value) {
   if (value.has("unit_m") && !value.has("mesh")) {
-    throw value["unit_m"].error("only a mesh has a unit; give all else in metres");
+    throw value["unit_m"].error("only a mesh has a unit; everything else is in metres");
   }
   if (value.has("unit_m") && !value["mesh"].is_string() && value["mesh"].has("unit_m")) {
-    throw value["unit_m"].error("the mesh says its unit itself; remove one of the two");
+    throw value["unit_m"].error("the mesh already states its unit; remove one of the two");
   }
   if (value.has("color") && value.has("type")) {
     throw value["color"].error("a type has its colour in the knowledge base; remove this one");
@@ -43,8 +43,8 @@ PlacedObject ObjectReader::read(const Value& value) {
   PlacedObject object{.name = value["name"].as<std::string>()};
   const auto [first, is_new] = places_.try_emplace(object.name, value["name"].place());
   if (!is_new) {
-    throw value["name"].error(fmt::format("the name \"{}\" is taken by {}; names have to differ",
-                                          object.name, first->second));
+    throw value["name"].error(fmt::format(
+        "the name \"{}\" is already used by {}; names must be unique", object.name, first->second));
   }
   if (value.has("pose")) object.T_world_object = read_pose(value["pose"]);
   if (value.has("type")) {

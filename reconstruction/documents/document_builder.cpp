@@ -43,9 +43,9 @@ void DocumentBuilder::begin_list(TextPosition at, const std::string& anchor) {
 }
 
 void DocumentBuilder::begin(nlohmann::json empty, TextPosition at, const std::string& anchor) {
-  if (expects_key()) fail(at, "a key that is no plain word; expected one, such as \"name\"");
+  if (expects_key()) fail(at, "a key that is not a plain word; expected one, such as \"name\"");
   if (open_.size() >= std::size_t(limits_.max_depth)) {
-    fail(at, fmt::format("nested deeper than {} levels; no file that vantage reads is",
+    fail(at, fmt::format("nested deeper than {} levels, which no file for vantage needs",
                          limits_.max_depth));
   }
   Open next{std::move(empty), at, anchor, next_pointer_hash(), next_line(at), weight_};
@@ -73,8 +73,7 @@ bool DocumentBuilder::expects_key() const {
 
 void DocumentBuilder::key(const std::string& text, TextPosition at) {
   if (text.size() > limits_.max_key_bytes) {
-    fail(at,
-         fmt::format("a key of {} bytes; at most {} are read", text.size(), limits_.max_key_bytes));
+    fail(at, fmt::format("a key of {} bytes; the limit is {}", text.size(), limits_.max_key_bytes));
   }
   charge({0, text.size()}, at);
   Open& map = open_.back();
@@ -85,7 +84,7 @@ void DocumentBuilder::key(const std::string& text, TextPosition at) {
   if (map.value.contains(text)) {
     document_.lines.finish();
     const int first = document_.lines.find_hash(pointer).value_or(map.line);
-    fail(at, fmt::format("the key \"{}\" is there twice, first in line {}; remove one of them",
+    fail(at, fmt::format("the key \"{}\" is given twice, first in line {}; remove one of them",
                          text, first));
   }
   note_line(pointer, at.line);
@@ -94,7 +93,7 @@ void DocumentBuilder::key(const std::string& text, TextPosition at) {
 void DocumentBuilder::merge_key(TextPosition at) {
   Open& map = open_.back();
   if (!map.merged.is_null()) {
-    fail(at, "the key \"<<\" is there twice; give one, with a list: <<: [*one, *other]");
+    fail(at, "the key \"<<\" is given twice; give it once, with a list: <<: [*one, *other]");
   }
   map.merges = true;
 }
@@ -113,14 +112,13 @@ void DocumentBuilder::alias(const std::string& anchor, TextPosition at) {
   if (found == anchors_.end()) {
     const bool inside_itself =
         std::any_of(open_.begin(), open_.end(), [&](const Open& o) { return o.anchor == anchor; });
-    fail(at,
-         inside_itself
-             ? fmt::format("*{} stands for something that it is part of; expected an end", anchor)
-             : fmt::format("*{} stands for nothing; expected an anchor &{} before it", anchor,
-                           anchor));
+    fail(at, inside_itself ? fmt::format("the alias *{} contains itself; remove it", anchor)
+                           : fmt::format("the alias *{} has no anchor; expected &{} before it",
+                                         anchor, anchor));
   }
   if (expects_key()) {
-    if (!found->second.value.is_string()) fail(at, fmt::format("*{} is no plain word", anchor));
+    if (!found->second.value.is_string())
+      fail(at, fmt::format("the alias *{} is not a plain word", anchor));
     return key(found->second.value.get<std::string>(), at);
   }
   charge(found->second.weight, at);
@@ -164,12 +162,11 @@ void DocumentBuilder::merge(Open& map, nlohmann::json value, TextPosition at) co
 void DocumentBuilder::charge(const Weight& more, TextPosition at) {
   constexpr std::size_t kValuesBetweenLooks = 4096;
   if (more.values > limits_.max_values - weight_.values) {
-    fail(at, fmt::format("more than {} values, aliases expanded; at most that many are read here",
+    fail(at, fmt::format("more than {} values, aliases expanded, which is the limit",
                          limits_.max_values));
   }
   if (more.bytes > limits_.max_bytes - weight_.bytes) {
-    fail(at, fmt::format("more than {} bytes of text, aliases expanded; at most that many are read "
-                         "here",
+    fail(at, fmt::format("more than {} bytes of text, aliases expanded, which is the limit",
                          limits_.max_bytes));
   }
   const std::size_t looks = weight_.values / kValuesBetweenLooks;

@@ -103,7 +103,7 @@ class JsonEvents {
 
   bool parse_error(std::size_t byte, const std::string&, const Json::exception& error) {
     builder_.fail(lines_.position(byte),
-                  fmt::format("no valid JSON, or truncated: {}", reason_of(error)));
+                  fmt::format("invalid or truncated JSON: {}", reason_of(error)));
   }
 
  private:

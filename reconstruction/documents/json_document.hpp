@@ -10,10 +10,10 @@
 
 namespace vantage {
 
-/// Reads JSON (RFC 8259; a byte order mark is passed over) that nobody vouches for.
-/// @throws Error bad_input with file:line:column for what is no valid JSON, a number that fits no
-/// double, invalid UTF-8, and what exceeds the limits; with file:line for a key that is there
-/// twice; for an empty file, one that is missing or too large. Error cancelled if `stop` was.
+/// Reads untrusted JSON (RFC 8259; a byte order mark is skipped).
+/// @throws Error bad_input with file:line:column for invalid JSON, a number that fits no double,
+/// invalid UTF-8, and what exceeds the limits; with file:line for a key that is there twice; for an
+/// empty file, one that is missing or too large. Error cancelled if `stop` was.
 Document read_json(const std::filesystem::path& path, const DocumentLimits& limits = kJsonLimits,
                    const StopToken& stop = {});
 

@@ -1,4 +1,5 @@
-// GCC 12 sees an overlap in std::string::replace that is none (GCC bug 105329), here in valijson.
+// GCC 12 warns of an overlap in std::string::replace that does not exist (GCC bug 105329), here in
+// valijson.
 #pragma GCC diagnostic ignored "-Wrestrict"
 
 #include "documents/schema_check.hpp"
@@ -36,7 +37,7 @@ bool is_of_any_type(const json& value, const json& types) {
                      [&](const json& type) { return is_of_type(value, type.get<std::string>()); });
 }
 
-/// The walk that finds what people get wrong most: keys and types.
+/// The walk that finds the most frequent mistakes: keys and types.
 class Walk {
  public:
   Walk(const Document& document, const json& root) : document_(document), root_(root) {}
@@ -47,7 +48,7 @@ class Walk {
     const json& schema = resolved.is_object() ? resolved : kAnything;
     if (schema.contains("type") && !is_of_any_type(value, schema["type"])) {
       json typed = schema;
-      typed.erase("oneOf");  // which speaks of the keys of what is none
+      typed.erase("oneOf");  // which concerns the keys of something that is not an object
       fail(pointer, fmt::format("found {}; expected {}", shown(value), in_words(root_, typed)));
     }
     if (value.is_number_float() && !std::isfinite(value.get<double>())) {

@@ -42,8 +42,8 @@ Pose read_matrix(const Value& value) {
   }
   if (m.row(3) != Eigen::RowVector4d(0, 0, 0, 1)) {
     throw rows[3].error(
-        "the last row of a pose's matrix is [0, 0, 0, 1]; expected row by row, "
-        "rotation to the left and translation in metres to the right");
+        "the last row of a pose's matrix is [0, 0, 0, 1]; expected row by row, with the rotation "
+        "on the left and the translation in metres on the right");
   }
   return Pose::from_rotation(m.topLeftCorner<3, 3>(), m.topRightCorner<3, 1>(), value.place());
 }
@@ -69,7 +69,8 @@ void check_one_rotation(const Value& value) {
     first = key;
   }
   if (value.has("matrix") && value.has("translation_m")) {
-    throw value["translation_m"].error("the matrix has the translation already; remove this key");
+    throw value["translation_m"].error(
+        "the matrix already contains the translation; remove this key");
   }
 }
 
@@ -86,7 +87,9 @@ Pose read_pose(const Value& value) {
   }
   if (value.has("look_at_m")) {
     const Eigen::Vector3d target = value["look_at_m"].vector();
-    if (target == translation) throw value["look_at_m"].error("it is where the pose itself is");
+    if (target == translation)
+      throw value["look_at_m"].error(
+          "it is the position of the pose itself; expected another point");
     return Pose::looking_at(translation, target);
   }
   if (!value.has("rotation")) return Pose::from_translation(translation);

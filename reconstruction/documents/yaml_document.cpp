@@ -64,7 +64,7 @@ class YamlParser {
     if (parser_.error == YAML_MEMORY_ERROR) throw std::bad_alloc();
     if (parser_.error == YAML_READER_ERROR) {
       throw bad_input(place_in_text(name_, position_of(parser_.problem_offset)),
-                      fmt::format("no valid YAML: {} (0x{:02x}); expected UTF-8 text",
+                      fmt::format("invalid YAML: {} (0x{:02x}); expected UTF-8 text",
                                   parser_.problem, parser_.problem_value));
     }
     const TextPosition at{int(parser_.problem_mark.line) + 1, int(parser_.problem_mark.column) + 1};
@@ -72,7 +72,7 @@ class YamlParser {
     if (parser_.context != nullptr) {
       reason += fmt::format(" {}, line {}", parser_.context, parser_.context_mark.line + 1);
     }
-    throw bad_input(place_in_text(name_, at), "no valid YAML: " + reason);
+    throw bad_input(place_in_text(name_, at), "invalid YAML: " + reason);
   }
 
   /// Of a byte of the text.
@@ -166,7 +166,7 @@ class YamlReader {
     if (kind == "float" && value->is_number()) return value->get<double>();
     if ((kind == "int" && !value->is_number_integer()) || (kind == "float") ||
         (kind == "bool" && !value->is_boolean()) || (kind == "null" && !value->is_null())) {
-      builder_.fail(at, fmt::format("found {}, which is no {}, as its tag !!{} says", shown(text),
+      builder_.fail(at, fmt::format("found {}, which is not a {} as its tag !!{} says", shown(text),
                                     kind, kind));
     }
     return *value;
@@ -189,8 +189,8 @@ class YamlReader {
 Document parse_yaml(std::string_view text, const std::string& name, const YamlOptions& options,
                     const StopToken& stop) {
   if (text.size() > options.limits.max_bytes) {
-    throw bad_input(name, fmt::format("has {} bytes; at most {} are read here", text.size(),
-                                      options.limits.max_bytes));
+    throw bad_input(
+        name, fmt::format("has {} bytes; the limit is {}", text.size(), options.limits.max_bytes));
   }
   std::string without_header;
   if (options.ignore_tags && text.starts_with("%YAML")) {

@@ -22,10 +22,10 @@ struct YamlOptions {
 /// Reads one YAML document. Plain scalars are typed by YAML 1.2's core schema (`yes` is a string,
 /// `true` a bool); quoted ones are strings. Aliases and merge keys (`<<`) are expanded. Lines may
 /// end with LF, CR LF or CR; the text is UTF-8, or UTF-16 with a byte order mark.
-/// @throws Error bad_input with file:line:column for what is no valid YAML, a key that is there
-/// twice, a key that is no word, an unknown tag, a number out of range, and what exceeds the
-/// limits; for an empty file, several documents in one file, a file that is missing or too large.
-/// Error cancelled if `stop` was.
+/// @throws Error bad_input with file:line:column for invalid YAML, a key that is there twice, a key
+/// that is no word, an unknown tag, a number out of range, and what exceeds the limits; for an
+/// empty file, several documents in one file, a file that is missing or too large. Error cancelled
+/// if `stop` was.
 Document read_yaml(const std::filesystem::path& path, const YamlOptions& options = {},
                    const StopToken& stop = {});
 

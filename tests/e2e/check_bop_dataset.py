@@ -59,7 +59,7 @@ def check_model(folder, number, info):
     check(np.allclose(np.linalg.norm(normals, axis=1), 1, atol=1e-4), f"model {number}: normals")
     corners = points[faces]
     volume = np.einsum("ij,ij->i", corners[:, 0], np.cross(corners[:, 1], corners[:, 2])).sum() / 6
-    check(volume > 0, f"model {number}: its faces look inwards")
+    check(volume > 0, f"model {number}: its faces point inwards")
     if texture:
         check((folder / texture).is_file(), f"model {number}: no texture {texture}")
         for axis in ("texture_u", "texture_v"):

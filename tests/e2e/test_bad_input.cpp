@@ -90,7 +90,7 @@ TEST_CASE("depth and intrinsics of different size") {
   expect_failure(plan(scene), 3, {"80", "60", "scale cam_K by 0.25"});
 }
 
-TEST_CASE("intrinsics and poses that are none") {
+TEST_CASE("invalid intrinsics and poses") {
   expect_bad_camera("cam_K", {-300, 0, 159.5, 0, 300, 119.5, 0, 0, 1},
                     {"scene_camera.json", "\"7\"", "-300"});
   expect_bad_camera("cam_K", {0, 0, 159.5, 0, 300, 119.5, 0, 0, 1}, {"scene_camera.json", "fx"});
@@ -110,7 +110,7 @@ TEST_CASE("damaged meshes") {
                       {"claims.ply", "4000000000"});
 }
 
-TEST_CASE("an instruction set that is none") {
+TEST_CASE("an unknown instruction set") {
   const TemporaryFolder folder;
   const auto result =
       run_vantage("demo -o '" + (folder / "out").string() + "'", "VANTAGE_MAX_ISA=avx3");

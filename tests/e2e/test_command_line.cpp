@@ -57,7 +57,7 @@ TEST_CASE("options that do nothing without another one are refused with both nam
   }
 }
 
-TEST_CASE("with the other one they are fine, wherever that is said") {
+TEST_CASE("with the other one they are accepted, wherever it is set") {
   const TemporaryFolder folder;
   test::write_scene(folder);
   folder.write("cell.yaml",
@@ -68,7 +68,7 @@ TEST_CASE("with the other one they are fine, wherever that is said") {
               0, {"next view"});
 }
 
-TEST_CASE("options of pictures without pictures change nothing, and that is said") {
+TEST_CASE("options of pictures without pictures change nothing and cause a warning") {
   const TemporaryFolder folder;
   test::write_scene(folder);
   expect_exit(plan_with(folder, kArea + std::string(" --picture-width 700")), 0,

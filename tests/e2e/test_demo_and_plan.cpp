@@ -352,7 +352,7 @@ TEST_CASE("pictures of several views, as drafts, are the same at any number of t
   CHECK(run_vantage("demo --picture-quality good -o" + test::quoted(one)).exit_code == 2);
 }
 
-TEST_CASE("what a deadline leaves no time for is drawn as a draft, and that is said") {
+TEST_CASE("what a deadline leaves no time for is drawn as a draft, with a message") {
   const test::TemporaryFolder folder;
   const auto result = run_vantage("demo --threads 1 --picture-width 2400 --deadline-ms 900 -o" +
                                   test::quoted(folder.path()));

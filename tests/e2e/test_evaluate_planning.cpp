@@ -102,6 +102,9 @@ TEST_CASE("evaluate planning refuses what it cannot evaluate, and writes nothing
   refused(quoted_workcell("wall") + " --depth deep", 2, "deep");
   refused(quoted_workcell("wall", "+deep"), 3, "found \"deep\"");
   refused(quoted_workcell("wall") + " --servo 101", 2, "--servo");
+  refused(quoted_workcell("wall") + " --servo 0 --servo-width 64", 2,
+          "--servo-width: does nothing without --servo N");
+  refused(quoted_workcell("wall") + " --filter off --filter-edge 0.1", 2, "--filter-edge");
 }
 
 TEST_CASE("Ctrl-C before the first scene is evaluated ends it with 130, and writes nothing") {

@@ -156,9 +156,12 @@ TEST_CASE("what cannot be evaluated is refused with the reason") {
   };
   refused("--sizes many", 3, "--sizes: found 'many'; expected numbers of cameras like 3");
   refused("--sizes 2-12", 3, "found subsets of 2 to 12 cameras; expected 1 to 9");
-  refused("--trials 2000", 6, "2000 trials of 502 subsets are more than 1000000 runs");
+  refused("--trials 2000 --drop 0.1", 6, "2000 trials of 502 subsets are more than 1000000 runs");
   refused("--methods svd,magic", 2, "magic");
   refused("--drop 1.5", 2, "--drop");
+  refused("--trials 3", 2, "--trials: does nothing without --noise-px, --drop or --wrong-ids");
+  refused("--seed 3 --drop 0", 2, "--seed: does nothing without");
+  refused("--methods svd --no-ambiguous", 2, "--no-ambiguous: does nothing without pnp");
   refused("--images 0 --sizes 1 --subsets covering --wrong-ids 0.1 --trials 0", 2, "--trials");
 
   const fs::path empty =
@@ -169,7 +172,7 @@ TEST_CASE("what cannot be evaluated is refused with the reason") {
   const auto unknown =
       run_vantage("evaluate reconstruction" + quoted(data) + " --workcell" + quoted(empty));
   CHECK(unknown.exit_code == 3);
-  CHECK(unknown.err.find("what truly stands there is not known") != std::string::npos);
+  CHECK(unknown.err.find("there is no ground truth") != std::string::npos);
 }
 
 TEST_CASE("Ctrl-C ends an evaluation with 130, and writes nothing") {

@@ -88,6 +88,9 @@ TEST_CASE("evaluate replay refuses what it cannot replay, and writes nothing") {
   refused(scene, test::kSceneArea + " --methods magic", 3, {"--methods", "found 'magic'"});
   refused(scene, " --work-area 5 5 0 6 6 1 --voxel-size 0.05", 3,
           {"work area", "of 3 frames, 0 show at least 10 % of it"});
+  refused(scene, test::kSceneArea + " --mesh-step 2", 2,
+          {"--mesh-step: does nothing without mesh among --methods"});
+  refused(scene, test::kSceneArea + " --filter off --filter-edge 0.1", 2, {"--filter-edge"});
   refused(scene, test::kSceneArea + " --images 7,9", 3, {"dataset", "found 2 frames"});
 
   json entry = test::scene_camera();

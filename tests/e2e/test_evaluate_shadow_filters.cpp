@@ -27,6 +27,10 @@ TEST_CASE("evaluate shadow-filters: the default offset with an opening beats no 
   const json report = run_vantage(command + " --json --threads 1").json();
   CHECK_NOTHROW(check_schema({"report", report}, shadow_filters_schema()));
   CHECK(run_vantage(command + " --json --threads 3").json() == report);
+  CHECK(report["config"]["offsets_sigmas"] == json({0, 3}));
+  CHECK(report["config"]["openings_voxels"] == json({0, 2}));
+  CHECK(report["config"]["classified"] == false);
+  CHECK(report["config"]["voxel_size_m"] == 0.0047);
   REQUIRE(report["filters"].size() == 4);
   CHECK(report["best"] == 3);
   const auto f1 = [&](std::size_t filter) {
@@ -68,6 +72,10 @@ TEST_CASE("evaluate shadow-filters refuses what it cannot evaluate") {
   refused(quoted_workcell("wall") + " --openings 65", 2, "--openings");
   refused(quoted_workcell("wall") + " --step 0", 2, "--step");
   refused(quoted_workcell("wall") + " --holes ignore", 2, "--holes");
+  for (const char* option : {"--offsets 1", "--step 2", "--holes fill"}) {
+    refused(quoted_workcell("wall") + " --classified " + option, 2,
+            "does nothing with --classified");
+  }
 }
 
 }  // namespace vantage

@@ -31,7 +31,7 @@ std::string bash(const std::string& script) {
 
 }  // namespace
 
-TEST_CASE("a stdout that takes nothing is said, after all files were written") {
+TEST_CASE("a stdout that cannot be written is reported, after all files were written") {
   const TemporaryFolder folder;
   test::write_scene(folder);
   const std::string out = " -o" + test::quoted(folder / "out");
@@ -43,7 +43,7 @@ TEST_CASE("a stdout that takes nothing is said, after all files were written") {
   expect_lost(test::run_vantage("--help", bash("\"$@\" > /dev/full")), "stdout");
 }
 
-TEST_CASE("a file that may not grow is no reason to be killed") {
+TEST_CASE("a file that may not grow does not end the process") {
   const TemporaryFolder folder;
   test::write_scene(folder);
   const fs::path out = folder / "out";

@@ -244,6 +244,13 @@ TEST_CASE("reconstruct says what is missing, with exit code 3") {
   refused(" --workcell" + quoted(no_board) + " --features" + quoted(folder.write("h.jsonl", "")),
           "cam_R_w2c");
   CHECK(run_vantage("reconstruct" + quoted(data) + own + " --method best").exit_code == 2);
+  for (const auto& [options, needs] : {std::pair(" --no-pictures", "--output"),
+                                       std::pair(" --method svd --no-ambiguous", "--method pnp")}) {
+    const auto unused = run_vantage("reconstruct" + quoted(data) + own + options);
+    CAPTURE(unused.err);
+    CHECK(unused.exit_code == 2);
+    CHECK(unused.err.find(needs) != std::string::npos);
+  }
   fs::create_directories(folder / "photographs");
   const auto photographs = run_vantage("reconstruct" + quoted(folder / "photographs") + own);
   CHECK(photographs.exit_code == 3);

@@ -33,7 +33,7 @@ test::CommandResult simulate(const char* cell, const fs::path& folder,
 
 }  // namespace
 
-TEST_CASE("a simulated dataset is what BOP describes, and agrees with its own truth") {
+TEST_CASE("a simulated dataset is as BOP describes it, and agrees with its ground truth") {
   const test::TemporaryFolder folder;
   for (const char* cell : {"wall", "duck"}) {
     CAPTURE(cell);
@@ -59,7 +59,8 @@ TEST_CASE("the same seed gives the same files at any number of threads") {
   CHECK(other.at("scene_camera.json") == one.at("scene_camera.json"));
 }
 
-TEST_CASE("a simulated dataset is planned with its own workcell, and the promise judged") {
+TEST_CASE(
+    "a simulated dataset is planned with its own workcell, and the predicted gain evaluated") {
   const test::TemporaryFolder folder;
   const fs::path data = folder / "data", out = folder / "out";
   const auto recorded = simulate("two_pillars", data, "--json");
@@ -104,7 +105,7 @@ TEST_CASE("a simulated dataset is planned with its own workcell, and the promise
         doctest::Approx(gain["true_hidden_m3"].get<double>()).epsilon(0.2));
 }
 
-TEST_CASE("all views of a plan are judged in their order, by its own sensor and filter") {
+TEST_CASE("all views of a plan are evaluated in order, by its own sensor and filter") {
   const test::TemporaryFolder folder;
   const fs::path data = folder / "data", out = folder / "out";
   REQUIRE(simulate("foreign_objects", data).exit_code == 0);
@@ -215,7 +216,7 @@ TEST_CASE("what cannot be simulated is refused with the reason, and leaves nothi
                    "box: {min_m: [0, 0, 0], max_m: [0.1, 0.1, 0.1]}}\n");
   const auto blind = run_vantage("simulate" + quoted(cell) + " -o" + quoted(folder / "data"));
   CHECK(blind.exit_code == 3);
-  CHECK(blind.err.find("cell.yaml: cameras: there are none") != std::string::npos);
+  CHECK(blind.err.find("cell.yaml: cameras: there are no cameras") != std::string::npos);
   CHECK_FALSE(fs::exists(folder / "data"));
 
   const auto folded = simulate("duck", folder / "data", "--distortion -2 0 0 0 0");
@@ -226,7 +227,13 @@ TEST_CASE("what cannot be simulated is refused with the reason, and leaves nothi
   CHECK(step.err.find("--disparity-step-px: found '-1'; expected a number, 0 or above") !=
         std::string::npos);
   CHECK_FALSE(fs::exists(folder / "data"));
-  CHECK(simulate("duck", folder / "data", "--ideal-depth --border-px 4").exit_code == 2);
+  for (const char* options : {"--ideal-depth --border-px 4", "--ideal-depth --no-projector",
+                              "--ideal-depth --no-second-imager", "--types duck"}) {
+    CAPTURE(options);
+    CHECK(simulate("duck", folder / "data", options).exit_code == 2);
+  }
+  CHECK(simulate("duck", folder / "data", "--types duck").err.find("--objects N") !=
+        std::string::npos);
 
   const auto coarse = simulate("duck", folder / "data", "--depth-scale-mm 0.01");
   CHECK(coarse.exit_code == 3);

@@ -13,7 +13,7 @@ test::CommandResult validate(const std::filesystem::path& scene, const std::stri
 
 }  // namespace
 
-TEST_CASE("validate: nothing is odd about a recording that fits, with exit code 0") {
+TEST_CASE("validate: a recording that fits has no findings and exit code 0") {
   const test::TemporaryFolder folder;
   const auto scene = test::write_scene(folder);
   const auto result = validate(scene);

@@ -12,7 +12,7 @@ using namespace vantage;
 
 namespace {
 
-void read_by_content(std::span<const std::uint8_t> bytes, raycore::detail::MeshCollector& mesh) {
+void read_by_content(std::span<const std::uint8_t> bytes, raycore::detail::MeshBuilder& mesh) {
   using namespace raycore::detail;
   const std::string_view text = as_text(bytes);
   if (text.starts_with("ply")) return read_ply(bytes, mesh);
@@ -39,7 +39,7 @@ void check(const TriangleMesh& mesh) {
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  raycore::detail::MeshCollector collector("fuzz", 0.001);
+  raycore::detail::MeshBuilder collector("fuzz", 0.001);
   try {
     read_by_content({data, size}, collector);
     check(std::move(collector).finish());

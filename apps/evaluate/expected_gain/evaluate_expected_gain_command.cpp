@@ -1,14 +1,13 @@
 #include <memory>
 
 #include "cli/command.hpp"
-#include "cli/progress_line.hpp"
+#include "cli/interruptible_run.hpp"
 #include "cli/shared_options.hpp"
-#include "cli/signal_handler.hpp"
-#include "cli/workers.hpp"
 #include "evaluate/expected_gain/gain_summary.hpp"
 #include "evaluate/expected_gain/random_cell.hpp"
 #include "options/command_line.hpp"
 #include "options/field_json.hpp"
+#include "options/unused_options.hpp"
 #include "options/view_options.hpp"
 #include "options/volume_fields.hpp"
 #include "process/result_output.hpp"
@@ -88,24 +87,29 @@ PlanningCell cell_number(const ExpectedGainCommandOptions& options, std::size_t 
   return cell;
 }
 
-/// What was finished when it was stopped is reported all the same.
+void check_unused(const ExpectedGainCommandOptions& options) {
+  VolumeOptions volume;
+  read_given(options.given, {"", "", {}, {fields_of(volume)}});
+  refuse_unused_filter(options.given, volume);
+}
+
+/// What was finished before a stop is still reported.
 ExitCode evaluate(const ExpectedGainCommandOptions& options) {
-  const StopToken stop;
-  const SignalHandler interrupt({stop});
+  InterruptibleRun run(options.threads);
+  check_unused(options);
   std::vector<GainMethod> methods;
   for (const std::string& name : options.methods) methods.push_back(gain_method(name));
   const std::size_t count = options.cells.size() + std::size_t(options.random);
-  if (count == 0) throw bad_input("cells", "there are none; name workcells, or give --random N");
+  if (count == 0)
+    throw bad_input("cells", "there are no cells; name workcells, or give --random N");
   std::vector<CellGains> cells;
-  Workers workers(options.threads);
-  workers.execute([&] {
-    const ProgressLine progress("evaluating", stop);
-    stop.expect(count);
-    for (std::size_t i = 0; i < count && !stop.stop_requested(); ++i) {
+  run.execute("evaluating", [&] {
+    run.stop().expect(count);
+    for (std::size_t i = 0; i < count && !run.cancelled(); ++i) {
       CellGains gains =
           evaluate_expected_gain(cell_number(options, i), methods, !options.no_oracle, StopToken());
       cells.push_back(std::move(gains));
-      stop.advance(1);
+      run.stop().advance(1);
     }
   });
   print_result(options.json, json_of(cells), [&] {
@@ -113,7 +117,7 @@ ExitCode evaluate(const ExpectedGainCommandOptions& options) {
     for (const ReportTable& table : gain_tables(cells)) text += table_text(table) + "\n";
     return text;
   });
-  return stop.stop_requested() ? ExitCode::cancelled : ExitCode::ok;
+  return run.exit_code();
 }
 
 }  // namespace
@@ -121,28 +125,28 @@ ExitCode evaluate(const ExpectedGainCommandOptions& options) {
 void add_evaluate_expected_gain(CLI::App& evaluate_verb, Action& action) {
   CLI::App* verb = evaluate_verb.add_subcommand(
       "expected-gain",
-      "What the methods' picks are expected to gain against what they really gain in simulated "
-      "cells, shipped and random ones, and against the best candidate");
+      "Compare what the methods' picks are expected to gain with what they really gain in "
+      "simulated cells, shipped and random ones, and with the best candidate");
   const auto options = std::make_shared<ExpectedGainCommandOptions>();
   verb->add_option("cells", options->cells,
                    "Workcell files, each with the cameras to use and their depth images: "
-                   "FILE[:CAMERA,...][+ideal|+noisy], e.g. wall.yaml:side; noisy without a word");
+                   "FILE[:CAMERA,...][+ideal|+noisy], e.g. wall.yaml:side (default: noisy)");
   verb->add_option(
           "--random", options->random,
-          "Number of random cells beside them: clutter and bins, known and unknown things, "
-          "with and without floor and walls, one to four cameras, other sensors")
+          "Number of additional random cells: clutter and bins, known and unknown objects, with "
+          "and without floor and walls, one to four cameras, different sensors")
       ->check(CLI::Range(0, 100000))
       ->capture_default_str();
-  verb->add_option("--seed", options->seed, "Random seed of the cells and of the cameras' noise")
+  verb->add_option("--seed", options->seed, "Random seed for the cells and for the cameras' noise")
       ->capture_default_str();
   verb->add_option("--methods", options->methods,
-                   "Which pick views: expected and bound (method voxel by either value), mesh, "
+                   "Methods to compare: expected and bound (method voxel with that --value), mesh, "
                    "shadow, shadowD3, light")
       ->delimiter(',')
       ->capture_default_str();
-  verb->add_flag(
-      "--no-oracle", options->no_oracle,
-      "Do not measure every feasible candidate: faster, but nothing is said of the best");
+  verb->add_flag("--no-oracle", options->no_oracle,
+                 "Do not measure every feasible candidate: faster, but without a comparison with "
+                 "the best one");
   VolumeOptions volume;
   ViewOptions views;
   add_fields(*verb, {"", "Planning", {}, {fields_of(volume), expected_gain_fields(views)}},
@@ -150,8 +154,7 @@ void add_evaluate_expected_gain(CLI::App& evaluate_verb, Action& action) {
   add_json_flag(*verb, options->json, "JSON");
   add_threads_option(*verb, options->threads);
   verb->footer(kExpectedGainExamples);
-  verb->parse_complete_callback(
-      [&action, options] { action = [=] { return evaluate(*options); }; });
+  set_action(*verb, action, options, evaluate);
 }
 
 }  // namespace vantage

@@ -10,7 +10,7 @@
 
 namespace vantage {
 
-/// What was said of a view, and what it really gained.
+/// What was predicted for a view, and what it really gained.
 struct GainedView {
   std::string name;        ///< the method that picked it, or the candidate's number
   double promised_m3 = 0;  ///< the upper bound
@@ -18,7 +18,7 @@ struct GainedView {
   double gained_m3 = 0;
 };
 
-/// One cell: what the methods picked, beside all of the candidates where they are.
+/// One cell: what the methods picked, and all candidates if they were measured.
 struct CellGains {
   std::string name;
   double shadow_m3 = 0;

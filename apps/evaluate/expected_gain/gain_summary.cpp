@@ -72,7 +72,7 @@ std::vector<GainSummary> gain_summaries(std::span<const CellGains> cells) {
 }
 
 std::vector<ReportTable> gain_tables(std::span<const CellGains> cells) {
-  ReportTable all{"What was expected of the picks, and what they gained, in cm³",
+  ReportTable all{"Expected and real gain of the picks, cm³",
                   {{"cell", "", true},
                    {"in sight"},
                    {"expected"},
@@ -82,14 +82,13 @@ std::vector<ReportTable> gain_tables(std::span<const CellGains> cells) {
                    {"of expected"},
                    {"of the best"}}};
   for (const CellGains& cell : cells) {
-    all.section(fmt::format("{}: {} cm³ of shadow, {} cm³ taken for false", cell.name,
+    all.section(fmt::format("{}: {} cm³ of shadow, {} cm³ removed as false shadow", cell.name,
                             cm3_text(cell.shadow_m3), cm3_text(cell.false_shadow_m3)));
     for (const GainedView& view : cell.picks) all.rows.push_back(row_of(cell, view));
   }
   all.note =
-      "Gained: shadow that is free or occupied with the depth image that the movable camera "
-      "measures "
-      "there. Of the best: of the most that any feasible candidate gains.";
+      "Gained: shadow that turns free or occupied with the depth image that the movable camera "
+      "measures there. Of the best: relative to the most that any feasible candidate gains.";
   ReportTable means{fmt::format("Over {} cells", cells.size()),
                     {{"method", "", true},
                      {"cells"},

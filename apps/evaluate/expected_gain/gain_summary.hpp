@@ -9,7 +9,7 @@
 
 namespace vantage {
 
-/// How well one method's picks came out, over the cells in which it picked one.
+/// The quality of one method's picks, over the cells in which it picked a view.
 struct GainSummary {
   std::string method;
   std::size_t cells = 0;

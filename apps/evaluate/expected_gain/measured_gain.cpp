@@ -5,7 +5,7 @@
 namespace vantage {
 namespace {
 
-/// Points that a camera that measures everything does not have in sight.
+/// Points that are not in the line of sight of an ideal camera.
 Points out_of_sight(const Points& points, const Scene& scene, const PinholeCamera& view) {
   std::vector<std::uint8_t> in_view(points.size()), blocked(points.size());
   view.in_view(points, in_view);

@@ -31,7 +31,7 @@ class MeasuredGain {
   /// The same, and the view is taken: what comes after it gains from what it leaves.
   double take_m3(const PinholeCamera& view, std::uint64_t seed);
 
-  /// What was taken for shadow and is none yet. World frame, metres.
+  /// What was taken for shadow and is still unknown. World frame, metres.
   const Points& left() const noexcept { return left_; }
 
  private:

@@ -1,11 +1,9 @@
 #include <memory>
 
 #include "cli/command.hpp"
+#include "cli/interruptible_run.hpp"
 #include "cli/number_checks.hpp"
-#include "cli/progress_line.hpp"
 #include "cli/shared_options.hpp"
-#include "cli/signal_handler.hpp"
-#include "cli/workers.hpp"
 #include "evaluate/gain/true_gain.hpp"
 #include "process/result_output.hpp"
 
@@ -35,13 +33,11 @@ struct GainCommandOptions {
 };
 
 ExitCode evaluate_gain(const GainCommandOptions& options) {
-  const StopToken stop;
-  const SignalHandler interrupt({stop});
-  const auto gain = Workers(options.threads).execute([&] {
-    const ProgressLine progress("measuring", stop);
-    return true_gain(options.workcell, options.plan, options.chosen(), stop);
+  InterruptibleRun run(options.threads);
+  const auto gain = run.execute("measuring", [&] {
+    return true_gain(options.workcell, options.plan, options.chosen(), run.stop());
   });
-  if (stop.stop_requested()) return ExitCode::cancelled;
+  if (run.cancelled()) return ExitCode::cancelled;
   print_result(options.json, gain, [&] { return summary_of_true_gain(gain); });
   return ExitCode::ok;
 }
@@ -51,30 +47,28 @@ ExitCode evaluate_gain(const GainCommandOptions& options) {
 void add_evaluate_gain(CLI::App& evaluate_verb, Action& action) {
   CLI::App* verb = evaluate_verb.add_subcommand(
       "gain",
-      "What a plan's views really turn from shadow to free or occupied in a simulated cell, beside "
-      "what was promised and expected");
+      "Measure how much shadow a plan's views really turn free or occupied in a simulated cell, "
+      "and compare it with the plan's bound and expectation");
   const auto options = std::make_shared<GainCommandOptions>();
   verb->add_option("workcell", options->workcell,
-                   "The simulated dataset's workcell.yaml: what truly stands there")
+                   "workcell.yaml of the simulated dataset, which holds the ground truth")
       ->required();
   verb->add_option("plan", options->plan, "plan.json")->required();
   verb->add_option("--oracle", options->oracle,
-                   "Views among which the best one is looked for; plan: the plan's own candidates; "
-                   "full: the full set of 34,225 as well")
+                   "Views to search for the truly best one; plan: the plan's own candidates; full: "
+                   "the full set of 34,225 as well; none: no search")
       ->check(CLI::IsMember({"none", "plan", "full"}))
       ->capture_default_str();
-  verb->add_option("--seed", options->seed, "Random seed of the movable camera's noise")
+  verb->add_option("--seed", options->seed, "Random seed for the movable camera's noise")
       ->capture_default_str();
-  verb->add_option(
-          "--voxel-size", options->voxel_size_m,
-          "Edge of the voxels in which the truly hidden volume is counted, metres (default: "
-          "the plan's)")
+  verb->add_option("--voxel-size", options->voxel_size_m,
+                   "Edge length of the voxels that the truly hidden volume is counted in, metres "
+                   "(default: the plan's)")
       ->check(positive_number());
   add_json_flag(*verb, options->json, "JSON");
   add_threads_option(*verb, options->threads);
   verb->footer(kGainExamples);
-  verb->parse_complete_callback(
-      [&action, options] { action = [=] { return evaluate_gain(*options); }; });
+  set_action(*verb, action, options, evaluate_gain);
 }
 
 }  // namespace vantage

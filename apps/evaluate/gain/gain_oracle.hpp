@@ -11,7 +11,7 @@
 
 namespace vantage {
 
-/// The views among which the best one is looked for.
+/// The views to search for the best one.
 class GainCandidates {
  public:
   /// @param shadow as it was planned for.

@@ -38,9 +38,9 @@ fs::path dataset_of(const PlainJson& plan, const fs::path& workcell_file,
   }
   throw bad_input(
       plan_file.string(),
-      fmt::format("it was made from another dataset than the one of {}: none of its "
-                  "inputs has the SHA-256 of {}. Give the workcell.yaml of the dataset "
-                  "that was planned for, or plan anew",
+      fmt::format("it was made from a different dataset than that of {}: none of its inputs has "
+                  "the SHA-256 of {}. Give the workcell.yaml of the dataset that was planned for, "
+                  "or plan again",
                   workcell_file.string(), (workcell_file.parent_path() / kCameras).string()));
 }
 
@@ -48,11 +48,11 @@ void check_workcell(const PlainJson& plan, const fs::path& workcell_file,
                     const fs::path& plan_file) {
   const PlainJson said = plan["config"].value("workcell", PlainJson());
   if (said.is_null() || was_read(plan, workcell_file)) return;
-  throw bad_input(plan_file.string(),
-                  fmt::format("it was made with another workcell than {}: none of its inputs has "
-                              "that file's SHA-256. Give the workcell that was planned with ({}), "
-                              "or plan anew",
-                              workcell_file.string(), said.get<std::string>()));
+  throw bad_input(
+      plan_file.string(),
+      fmt::format("it was made with a different workcell than {}: none of its inputs has that "
+                  "file's SHA-256. Give the workcell that was planned with ({}), or plan again",
+                  workcell_file.string(), said.get<std::string>()));
 }
 
 PlanOptions options_of(const PlainJson& config, const fs::path& dataset,
@@ -105,7 +105,7 @@ JudgedPlan read_judged_plan(const fs::path& workcell_file, const fs::path& plan_
   const Document document = read_document(plan_file);
   check_schema(document, plan_schema());
   const Value plan(document);
-  if (plan["best"].is_null()) throw plan["best"].error("the plan has no best view to be judged");
+  if (plan["best"].is_null()) throw plan["best"].error("the plan has no best view to evaluate");
   const PlainJson& json = document.root;
   check_workcell(json, workcell_file, plan_file);
   const fs::path dataset = dataset_of(json, workcell_file, plan_file);

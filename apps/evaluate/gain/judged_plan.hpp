@@ -8,7 +8,7 @@
 
 namespace vantage {
 
-/// A view of a plan, and what was said of it.
+/// A view of a plan, and what the plan predicts for it.
 struct JudgedView {
   Pose T_world_cam;
   double promised_m3 = 0;
@@ -25,8 +25,9 @@ struct JudgedPlan {
 };
 
 /// @param workcell_file of the simulated dataset.
-/// @throws Error bad_input for a file that is no plan.json, one without a best view, and one that
-/// was made from other files than this workcell's or the dataset's beside it; as `load_plan_input`.
+/// @throws Error bad_input for a file that is not a plan.json, one without a best view, and one
+/// that was made from other files than this workcell's or the dataset's beside it; as
+/// `load_plan_input`.
 JudgedPlan read_judged_plan(const std::filesystem::path& workcell_file,
                             const std::filesystem::path& plan_file, const StopToken& stop);
 

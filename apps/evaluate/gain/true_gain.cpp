@@ -115,7 +115,7 @@ std::string summary_of_true_gain(const Json& gain) {
   }
   const double hidden = gain["true_hidden_m3"], seen = gain["true_hidden_seen_m3"];
   text += fmt::format(
-      "shadow     {} before, of voxels of {} m\n"
+      "shadow     {} before, in voxels of {} m\n"
       "hidden     {} for ideal sensors, of which the first view has {} in sight{}\n",
       volume(gain["shadow_m3"]), gain["voxel_size_m"].get<double>(), volume_text(hidden),
       volume_text(seen), hidden > 0 ? fmt::format(", {:.1f} %", 100 * seen / hidden) : "");

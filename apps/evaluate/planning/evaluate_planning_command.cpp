@@ -6,15 +6,15 @@
 
 #include "cli/command.hpp"
 #include "cli/inputs_json.hpp"
-#include "cli/progress_line.hpp"
-#include "cli/signal_handler.hpp"
-#include "cli/workers.hpp"
+#include "cli/interruptible_run.hpp"
 #include "evaluate/planning/planning_benchmark.hpp"
 #include "evaluate/planning/planning_json.hpp"
 #include "evaluate/planning/planning_options.hpp"
 #include "metrics/planning/planning_tables.hpp"
 #include "options/field_json.hpp"
+#include "options/unused_options.hpp"
 #include "options/view_options.hpp"
+#include "options/volume_fields.hpp"
 #include "plan/report/plan_json.hpp"
 #include "process/output_folder.hpp"
 #include "process/result_output.hpp"
@@ -51,13 +51,18 @@ PlanningBenchmarkOptions options_of(const PlanningCommandOptions& options) {
   if (options.value == "expected" && !there) methods.push_back("expected");
   choose(methods, options.sets, settings);
   settings.given = options.given;
-  read_given(options.given, {"", "", {}, {fields_of(settings.servo), fields_of(settings.polish)}});
+  VolumeOptions volume;
+  read_given(
+      options.given,
+      {"", "", {}, {fields_of(settings.servo), fields_of(settings.polish), fields_of(volume)}});
+  refuse_unused_servo(options.given, settings.servo);
+  refuse_unused_filter(options.given, volume);
   const bool drawn = !options.folder.empty() && !options.no_pictures;
   settings.picture_width = drawn ? kPictureWidth : 0;
   return settings;
 }
 
-/// Every cell is loaded before the first is evaluated: what is wrong is said at once.
+/// All cells are loaded before the first is evaluated, so that errors are reported at once.
 std::vector<PlanningCell> load_cells(const PlanningCommandOptions& options) {
   std::vector<PlanningCell> cells;
   for (const std::string& scene : options.scenes) {
@@ -128,10 +133,9 @@ Json json_of(const PlanningResult& result, const PlanningCommandOptions& options
 std::vector<std::string> settings_text(const PlanningCommandOptions& options,
                                        const PlanningBenchmarkOptions& settings) {
   return {fmt::format(
-      "vantage {}, servo of {} iterations, {} of the best views polished, {}, run times: {} of {}.",
-      kVersion, settings.servo.iterations, settings.polish.views,
-      options.threads > 0 ? fmt::format("{} threads", options.threads)
-                          : "as many threads as the machine has",
+      "vantage {}, servo iterations: {}, polished views: {}, {}, run times: {} of {}.", kVersion,
+      settings.servo.iterations, settings.polish.views,
+      options.threads > 0 ? fmt::format("{} threads", options.threads) : "one thread per core",
       settings.repeat > 1 ? "medians" : "one run", settings.repeat)};
 }
 
@@ -158,22 +162,17 @@ std::string text_of(const PlanningEvaluation& evaluation) {
 }
 
 ExitCode evaluate(const PlanningCommandOptions& options) {
-  const StopToken stop;
-  const SignalHandler interrupt({stop});
   const PlanningBenchmarkOptions settings = options_of(options);
-  Workers workers(options.threads);
-  const PlanningResult result = workers.execute([&] {
-    const std::vector<PlanningCell> cells = load_cells(options);
-    const ProgressLine progress("evaluating", stop);
-    return evaluate_cells(cells, settings, stop);
-  });
-  const ExitCode exit_code = stop.stop_requested() ? ExitCode::cancelled : ExitCode::ok;
-  if (result.evaluation.scenes.empty()) return exit_code;
+  InterruptibleRun run(options.threads);
+  const std::vector<PlanningCell> cells = run.execute([&] { return load_cells(options); });
+  const PlanningResult result =
+      run.execute("evaluating", [&] { return evaluate_cells(cells, settings, run.stop()); });
+  if (result.evaluation.scenes.empty()) return run.exit_code();
   Json json = json_of(result, options, settings);
-  json["partial"] = stop.stop_requested();
+  json["partial"] = run.cancelled();
   if (!options.folder.empty()) write(options, settings, result, json);
   print_result(options.json, json, [&] { return text_of(result.evaluation); });
-  return exit_code;
+  return run.exit_code();
 }
 
 }  // namespace
@@ -181,13 +180,12 @@ ExitCode evaluate(const PlanningCommandOptions& options) {
 void add_evaluate_planning(CLI::App& evaluate_verb, Action& action) {
   CLI::App* verb = evaluate_verb.add_subcommand(
       "planning",
-      "The thesis' chapter 9 on simulated workcells: which views the methods pick, how good they "
-      "are by the voxel method and in truth, and how long it takes");
+      "Repeat the thesis' chapter 9 on simulated workcells: which views the methods pick, how good "
+      "they are by the voxel method and by the ground truth, and how long planning takes");
   const auto options = std::make_shared<PlanningCommandOptions>();
   options->add_to(*verb);
   verb->footer(kPlanningExamples);
-  verb->parse_complete_callback(
-      [&action, options] { action = [=] { return evaluate(*options); }; });
+  set_action(*verb, action, options, evaluate);
 }
 
 }  // namespace vantage

@@ -12,7 +12,7 @@
 
 namespace vantage {
 
-/// A method under the name that tables have of it.
+/// A method under its name in tables.
 struct NamedMethod {
   std::string name;
   Method method;
@@ -26,7 +26,7 @@ struct NamedMethod {
 NamedMethod named_method(const std::string& name);
 
 /// Several, in their order.
-/// @throws Error bad_input for a name that is none, and one that is there twice.
+/// @throws Error bad_input for an unknown name, and for one that is given twice.
 std::vector<NamedMethod> named_methods(const std::vector<std::string>& names);
 
 /// What `vantage evaluate planning` was asked for.
@@ -44,8 +44,9 @@ struct PlanningBenchmarkOptions {
   int picture_width = 0;  ///< of the overviews; 0: none
 };
 
-/// Puts the methods and sets in order; `voxel` is always among them, because it is the measure.
-/// @throws Error bad_input for a name that is none, and one that is there twice.
+/// Puts the methods and sets in order; `voxel` is always among them, because the others are
+/// measured by it.
+/// @throws Error bad_input for an unknown name, and for one that is given twice.
 void choose(const std::vector<std::string>& methods, const std::vector<std::string>& sets,
             PlanningBenchmarkOptions& settings);
 
@@ -55,9 +56,9 @@ struct EvaluatedScene {
   std::vector<PagePicture> pictures;  ///< their `scene` is not set
 };
 
-/// Classifies the cell, lets every method pick a view from every set, and holds the picks against
-/// the voxel method and against the truth. Runs in the caller's task arena; all but the run times
-/// is the same at any number of threads. Without sense if `stop` was cancelled.
+/// Classifies the cell, lets every method pick a view from every set, and compares the picks with
+/// the voxel method's and with the ground truth. Runs in the caller's task arena; all but the run
+/// times is the same at any number of threads. The result is meaningless if `stop` was cancelled.
 /// @throws Error as `plan_next_view` does.
 EvaluatedScene evaluate_planning(const PlanningCell& cell, const PlanningBenchmarkOptions& settings,
                                  const StopToken& stop);

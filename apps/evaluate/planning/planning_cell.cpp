@@ -27,8 +27,8 @@ std::vector<std::string> parts_of(const std::string& text, char separator) {
   return parts;
 }
 
-/// What follows the last separator of the file's name, which goes with it; nothing if there is
-/// none, or if that is a file as it is.
+/// The part after the file name's last separator, the separator included; nothing if there is no
+/// separator, or if the whole name is a file.
 std::optional<std::string> cut_off(std::string& name, char separator) {
   const std::size_t at = name.rfind(separator);
   if (at == std::string::npos || name.find('/', at) != std::string::npos || fs::exists(name)) {
@@ -45,9 +45,8 @@ std::vector<std::size_t> chosen_cameras(const PlanningCellName& name, const Work
   for (const CellCamera& camera : workcell.cameras) known.push_back(camera.name);
   if (known.empty()) {
     throw bad_input(name.workcell.string() + ": cameras",
-                    "there are none; without cameras nothing is seen and all is shadow. Expected "
-                    "at least one, e.g. \"- {name: front, eye_m: [0, -0.7, 0.4], target_m: [0, 0, "
-                    "0]}\"");
+                    "there are no cameras, so all of the work area is shadow; expected at least "
+                    "one, e.g. \"- {name: front, eye_m: [0, -0.7, 0.4], target_m: [0, 0, 0]}\"");
   }
   std::vector<std::size_t> chosen;
   for (const std::string& camera : name.cameras.empty() ? known : name.cameras) {
@@ -133,7 +132,7 @@ std::vector<PinholeCamera> PlanningCell::cameras() const {
 }
 
 PlanningCell load_planning_cell(const PlanningCellName& name, DepthKind usual, std::uint64_t seed) {
-  // The thesis, whose tables this is for, knows no body.
+  // The thesis, whose tables this reproduces, has no camera body.
   Workcell workcell = load_workcell(name.workcell, ViewConstraints::bare());
   const std::vector<std::size_t> cameras = chosen_cameras(name, workcell);
   place_random_objects(workcell);

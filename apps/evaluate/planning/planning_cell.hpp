@@ -13,7 +13,7 @@
 
 namespace vantage {
 
-/// Which depth images planning gets beside the known objects.
+/// Which depth images planning gets in addition to the known objects.
 enum class DepthKind {
   none,   ///< as the thesis' voxel and shadow methods have it
   ideal,  ///< a sensor that measures every surface exactly
@@ -30,16 +30,16 @@ struct PlanningCellName {
 };
 
 /// A name that is a file as a whole is that file.
-/// @throws Error bad_input for a kind of depth that there is not, and for an empty name.
+/// @throws Error bad_input for an unknown kind of depth, and for an empty name.
 PlanningCellName planning_cell_name(const std::string& argument);
 
-/// A simulated cell, what planning is told of it, and what truly stands there.
+/// A simulated cell, what planning is told about it, and its ground truth.
 struct PlanningCell {
   std::string name;  ///< the workcell's file without its ending, and the cameras, e.g. "wall:front"
   std::string depth;
   WorldModel world;  ///< what the cameras could recognise, at its true pose
-  /// The same with depth images, for methods that cannot do without: those of `world`, or if it has
-  /// none, the workcell's stereo cameras'.
+  /// The same with depth images, for methods that need them: those of `world`, or if it has none,
+  /// the workcell's stereo cameras'.
   WorldModel measured;
   PlanRequest request;
   SimulatedScene scene;

@@ -1,7 +1,7 @@
 #include "evaluate/planning/planning_json.hpp"
 
-#include "cli/optional_json.hpp"
 #include "cli/pose_json.hpp"
+#include "evaluate/optional_json.hpp"
 #include "metrics/planning/planning_tables.hpp"
 #include "version.hpp"
 

@@ -53,8 +53,8 @@ NamedMethod named_method(const std::string& name) {
     return by_depth(MeshMethod{.weight = MeshWeight::depth, .depth_power = *power});
   }
   throw bad_input("--methods",
-                  fmt::format("found '{}'; expected one of: expected, {}; shadowD or meshD and a "
-                              "number from 0 to 16 is that method with that power of the depth",
+                  fmt::format("found '{}'; expected one of: expected, {}; or shadowD or meshD with "
+                              "a depth power from 0 to 16, e.g. shadowD6",
                               name, fmt::join(method_names(), ", ")));
 }
 

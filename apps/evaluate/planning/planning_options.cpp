@@ -18,11 +18,11 @@ void add_input_options(CLI::App& verb, PlanningCommandOptions& options) {
                   "corridor.yaml:left,right foreign_objects.yaml+ideal")
       ->required();
   verb.add_option("--depth", options.depth,
-                  "Depth images of scenes that do not say: none (known objects alone, as the "
-                  "thesis' methods), ideal, or the workcell's noisy sensor")
+                  "Depth images for scenes that do not name theirs; none: known objects only, as "
+                  "in the thesis; ideal; noisy: the workcell's sensor")
       ->check(CLI::IsMember(kDepthKinds))
       ->capture_default_str();
-  verb.add_option("--seed", options.seed, "Random seed of the depth images' noise")
+  verb.add_option("--seed", options.seed, "Random seed for the depth images' noise")
       ->capture_default_str();
 }
 
@@ -32,14 +32,14 @@ void add_method_options(CLI::App& verb, PlanningCommandOptions& options) {
   PolishOptions polish;
   VolumeOptions volume;
   verb.add_option("--methods", options.methods,
-                  "Methods, e.g. voxel,expected,shadowD6,mesh,light; D and a number is the power "
-                  "of the depth. "
-                  "voxel is always there: it is the measure")
+                  "Methods, e.g. voxel,expected,shadowD6,mesh,light; D and a number set the depth "
+                  "power. voxel is always included, because the others are measured by it")
       ->delimiter(',')
       ->capture_default_str();
-  verb.add_option("--value", options.value,
-                  "bound: method voxel scores by all that a view has in sight, as in the thesis; "
-                  "expected: picks by the expected gain are compared, too, as method expected")
+  verb.add_option(
+          "--value", options.value,
+          "bound: method voxel scores by all shadow in a view's line of sight, as in the thesis; "
+          "expected: picks by the expected gain are compared as well, as method expected")
       ->check(CLI::IsMember({"bound", "expected"}))
       ->capture_default_str();
   verb.add_option("--candidates", options.sets,
@@ -49,7 +49,7 @@ void add_method_options(CLI::App& verb, PlanningCommandOptions& options) {
       ->capture_default_str();
   verb.add_option("--radii", options.benchmark.radii_m,
                   "Radii of the full set's three half-spheres, metres, e.g. 0.5,0.7,0.9; the "
-                  "production set has the first and the last (default: from the work area)")
+                  "production set uses the first and the last (default: from the work area)")
       ->delimiter(',')
       ->expected(3)
       ->check(positive_number());
@@ -66,8 +66,10 @@ void add_method_options(CLI::App& verb, PlanningCommandOptions& options) {
 }
 
 void add_output_options(CLI::App& verb, PlanningCommandOptions& options) {
-  add_output_option(verb, options.folder, "planning.html, planning.json and charts as SVG");
+  CLI::Option* folder =
+      add_output_option(verb, options.folder, "planning.html, planning.json and charts as SVG");
   verb.add_flag("--no-pictures", options.no_pictures, "Leave the scenes' pictures out of the page")
+      ->needs(folder)
       ->group("Output");
   add_json_flag(verb, options.json, "planning.json");
   add_threads_option(verb, options.threads);

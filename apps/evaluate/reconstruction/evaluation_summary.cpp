@@ -81,7 +81,7 @@ std::string summary_of_evaluation(const ReconstructionEvaluation& evaluation) {
     }
     text += row(method.name, "all", method.all) + "\n";
   }
-  text += "BOP's scores, all cameras, undisturbed:\n";
+  text += "BOP scores, all cameras, no perturbation:\n";
   for (const MethodEvaluation& method : evaluation.methods) text += bop_line(method);
   return text;
 }

@@ -38,8 +38,8 @@ TypePtr type_of(const Value& id, const KnowledgeBase& knowledge) {
     if (type->bop_id == id.as<int>()) return type;
   }
   throw id.error(
-      fmt::format("the knowledge base has no BOP model {}; name the folder of the "
-                  "dataset's models as the workcell's knowledge_base",
+      fmt::format("the knowledge base has no BOP model {}; set the workcell's knowledge_base to "
+                  "the folder of the dataset's models",
                   id.as<int>()));
 }
 
@@ -107,9 +107,9 @@ std::vector<TrueObject> true_objects(const Workcell& workcell, const BopScene& s
   }
   if (!objects.empty()) return objects;
   throw bad_input(scene.folder.string(),
-                  "what truly stands there is not known: the workcell has no known_objects of a "
-                  "type, and there is no scene_gt.json with any; evaluate a simulated dataset with "
-                  "its own workcell.yaml, or one with BOP's truth");
+                  "there is no ground truth: the workcell has no known_objects with a type, and "
+                  "there is no scene_gt.json with objects; evaluate a simulated dataset with its "
+                  "own workcell.yaml, or a dataset with BOP's ground truth");
 }
 
 }  // namespace vantage

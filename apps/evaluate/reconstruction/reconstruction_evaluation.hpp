@@ -24,7 +24,7 @@ struct ReconstructionEvaluationOptions {
   double correct = 0.1;  ///< MSSD in diameters below which an estimate is correct
 };
 
-/// A camera as it was located, beside the dataset's pose of it.
+/// A camera as it was located, and its pose in the dataset.
 struct EvaluatedCamera {
   int image = 0;
   std::string reason = {};       ///< why it was not located, and is left out
@@ -37,7 +37,7 @@ struct MethodEvaluation {
   std::string name;
   std::map<std::size_t, RunSummary> by_cameras;
   RunSummary all;
-  Reconstruction from_all_cameras;     ///< undisturbed
+  Reconstruction from_all_cameras;     ///< without perturbation
   std::vector<EstimateErrors> errors;  ///< its
   std::optional<BopScores> bop;        ///< its
 };
@@ -55,7 +55,7 @@ struct ReconstructionEvaluation {
 
 /// Detects once for each image, locates each camera once, and then runs every method with every
 /// subset of the cameras against the truth. Runs in the caller's task arena; the same result at any
-/// number of threads. Without sense if `stop` was cancelled.
+/// number of threads. The result is meaningless if `stop` was cancelled.
 /// @param workcell with its random objects placed: they are the truth.
 /// @throws Error bad_input as `observe`, `true_objects`, `ReconstructionEvaluator` and
 /// `camera_subsets` do, and if no camera could be located or no subset sees every object.

@@ -1,18 +1,18 @@
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <memory>
 
 #include "cli/command.hpp"
 #include "cli/inputs_json.hpp"
-#include "cli/number_checks.hpp"
-#include "cli/progress_line.hpp"
+#include "cli/interruptible_run.hpp"
 #include "cli/shared_options.hpp"
-#include "cli/signal_handler.hpp"
-#include "cli/workers.hpp"
 #include "evaluate/replay/replay_benchmark.hpp"
 #include "evaluate/replay/replay_json.hpp"
 #include "metrics/planning/replay_tables.hpp"
 #include "options/command_line.hpp"
+#include "options/field_json.hpp"
+#include "options/unused_options.hpp"
 #include "options/view_options.hpp"
 #include "plan/plan_options.hpp"
 #include "process/output_folder.hpp"
@@ -34,14 +34,41 @@ using Json = nlohmann::ordered_json;
 struct ReplayCommandOptions {
   PlanOptions plan;
   std::vector<std::string> methods{"expected", "voxel", "mesh", "meshD6"};
-  ReplayBenchmarkOptions settings;
+  nlohmann::json given = nlohmann::json::object();  ///< fields of the settings
   fs::path folder;
   bool json = false;
   int threads = 0;
 };
 
+FieldGroup fields_of(ReplayBenchmarkOptions& settings) {
+  return {"",
+          "Replay",
+          {{.key = "pairs",
+            .value = &settings.pairs,
+            .help = "Number of pairs of frames to plan from",
+            .option = "--pairs",
+            .range = from_to(1, 1000000)},
+           {.key = "seed",
+            .value = &settings.seed,
+            .help = "Seed for selecting pairs",
+            .option = "--seed"},
+           {.key = "least_seen",
+            .value = &settings.min_seen,
+            .help = "Minimum share of the work area that each frame of a pair shows; all other "
+                    "frames are candidates",
+            .option = "--least-seen",
+            .range = from_to(0, 1)}}};
+}
+
+bool has_mesh(const std::vector<std::string>& methods) {
+  return std::ranges::any_of(named_methods(methods), [](const NamedMethod& method) {
+    return std::holds_alternative<MeshMethod>(method.method);
+  });
+}
+
 ReplayBenchmarkOptions options_of(const ReplayCommandOptions& arguments, const MeshMethod& mesh) {
-  ReplayBenchmarkOptions settings = arguments.settings;
+  ReplayBenchmarkOptions settings;
+  read_given(arguments.given, fields_of(settings));
   settings.methods = named_methods(arguments.methods);
   for (NamedMethod& method : settings.methods) {
     auto* const by_mesh = std::get_if<MeshMethod>(&method.method);
@@ -54,16 +81,15 @@ ReplayBenchmarkOptions options_of(const ReplayCommandOptions& arguments, const M
   return settings;
 }
 
-Json config_json(const ReplayCommandOptions& arguments, const PlanInput& input) {
+Json config_json(const ReplayCommandOptions& arguments, ReplayBenchmarkOptions settings,
+                 const PlanInput& input) {
   PlanRequest request = input.request;
   request.method = input.mesh;
   const Json all = config_of(request);
   Json config = input.record.config;
-  config.update({{"methods", arguments.methods},
-                 {"pairs", arguments.settings.pairs},
-                 {"seed", arguments.settings.seed},
-                 {"least_seen", arguments.settings.min_seen},
-                 {"work_area", all["work_area"]},
+  config["methods"] = arguments.methods;
+  config.update(to_json(fields_of(settings)));
+  config.update({{"work_area", all["work_area"]},
                  {"voxel_size_m", request.voxel_size_m},
                  {"volume", all["volume"]},
                  {"mesh", all["mesh"]}});
@@ -79,21 +105,18 @@ std::string text_of(const ReplayEvaluation& evaluation) {
 }
 
 ExitCode evaluate(const ReplayCommandOptions& arguments) {
-  const StopToken stop;
-  const SignalHandler interrupt({stop});
-  Workers workers(arguments.threads);
-  PlanInput input = workers.execute([&] { return load_plan_input(arguments.plan, stop); });
+  InterruptibleRun run(arguments.threads);
+  refuse_unused_mesh(arguments.plan.given, has_mesh(arguments.methods), "mesh among --methods");
+  PlanInput input = run.execute([&] { return load_plan_input(arguments.plan, run.stop()); });
   for (const std::string& warning : input.warnings) spdlog::warn("{}", warning);
+  refuse_unused_filter(arguments.plan.given, input.request.volume);
   const ReplayBenchmarkOptions settings = options_of(arguments, input.mesh);
-  const ReplayEvaluation evaluation = workers.execute([&] {
-    const ProgressLine progress("replaying", stop);
-    return evaluate_replay(input, settings, stop);
-  });
-  const ExitCode exit_code = stop.stop_requested() ? ExitCode::cancelled : ExitCode::ok;
-  if (evaluation.pairs.empty()) return exit_code;
+  const ReplayEvaluation evaluation =
+      run.execute("replaying", [&] { return evaluate_replay(input, settings, run.stop()); });
+  if (evaluation.pairs.empty()) return run.exit_code();
   Json json = replay_to_json(evaluation);
-  json["partial"] = stop.stop_requested();
-  json["config"] = config_json(arguments, input);
+  json["partial"] = run.cancelled();
+  json["config"] = config_json(arguments, settings, input);
   json["inputs"] = inputs_json(input.record.inputs);
   if (!arguments.folder.empty()) {
     make_output_folder(arguments.folder);
@@ -101,24 +124,7 @@ ExitCode evaluate(const ReplayCommandOptions& arguments) {
     spdlog::info("wrote {}", (arguments.folder / "replay.json").string());
   }
   print_result(arguments.json, json, [&] { return text_of(evaluation); });
-  return exit_code;
-}
-
-void add_replay_options(CLI::App& verb, ReplayCommandOptions& arguments) {
-  ReplayBenchmarkOptions& settings = arguments.settings;
-  verb.add_option("--methods", arguments.methods,
-                  "Methods, e.g. voxel,mesh,shadowD6; D and a number is the power of the depth")
-      ->delimiter(',')
-      ->capture_default_str();
-  verb.add_option("--pairs", settings.pairs, "Number of pairs of frames to plan from")
-      ->check(CLI::Range(1, 1000000))
-      ->capture_default_str();
-  verb.add_option("--seed", settings.seed, "Seed for selecting pairs")->capture_default_str();
-  verb.add_option("--least-seen", settings.min_seen,
-                  "Minimum share of the work area that each frame of a pair shows; all other "
-                  "frames are candidates")
-      ->check(number_between(0.0, 1.0))
-      ->capture_default_str();
+  return run.exit_code();
 }
 
 }  // namespace
@@ -126,11 +132,17 @@ void add_replay_options(CLI::App& verb, ReplayCommandOptions& arguments) {
 void add_evaluate_replay(CLI::App& evaluate_verb, Action& action) {
   CLI::App* verb = evaluate_verb.add_subcommand(
       "replay",
-      "Of a recording from many known poses: plan from two frames with the others as candidates, "
-      "and see what the picked frame really reveals");
+      "Replay a recording from many known poses: plan from two frames with the others as "
+      "candidates, and measure what the picked frame really reveals");
   const auto arguments = std::make_shared<ReplayCommandOptions>();
   add_input_options(*verb, arguments->plan);
-  add_replay_options(*verb, *arguments);
+  verb->add_option("--methods", arguments->methods,
+                   "Methods, e.g. voxel,mesh,shadowD6; D and a number set the depth power")
+      ->delimiter(',')
+      ->capture_default_str()
+      ->group("Replay");
+  ReplayBenchmarkOptions settings;
+  add_fields(*verb, fields_of(settings), arguments->given);
   MeshMethod mesh;
   add_fields(*verb, {"", "", {}, {fields_of(mesh)}}, arguments->plan.given);
   add_object_options(*verb, arguments->plan.objects);
@@ -139,8 +151,7 @@ void add_evaluate_replay(CLI::App& evaluate_verb, Action& action) {
   add_json_flag(*verb, arguments->json, "replay.json");
   add_threads_option(*verb, arguments->threads);
   verb->footer(kReplayExamples);
-  verb->parse_complete_callback(
-      [&action, arguments] { action = [=] { return evaluate(*arguments); }; });
+  set_action(*verb, action, arguments, evaluate);
 }
 
 }  // namespace vantage

@@ -19,9 +19,9 @@ namespace {
 void check_frames(const std::vector<DepthCamera>& frames) {
   for (const DepthCamera& frame : frames) {
     if (frame.depth != nullptr) continue;
-    throw bad_input(fmt::format("image {}", frame.name),
-                    "it has no depth image, and what it really reveals is measured by that; "
-                    "replay a recording with a depth folder");
+    throw bad_input(
+        fmt::format("image {}", frame.name),
+        "it has no depth image to measure what it reveals; replay a recording with a depth folder");
   }
   if (frames.size() >= 3) return;
   throw bad_input("dataset", fmt::format("found {} frames whose camera has a pose; expected at "
@@ -82,9 +82,9 @@ class Replay {
     }
     if (usable.size() >= 2 || stop_.stop_requested()) return usable;
     throw bad_input("work area",
-                    fmt::format("of {} frames, {} show at least {:.3g} % of it (the most that one "
-                                "shows: {:.3g} %); expected 2: is the box in the recording's world "
-                                "frame, in metres? else lower --least-seen",
+                    fmt::format("of {} frames, {} show at least {:.3g} % of it (the best one shows "
+                                "{:.3g} %); expected 2: check that the box is in the recording's "
+                                "world frame and in metres, or lower --least-seen",
                                 frames_.size(), usable.size(), 100 * settings_.min_seen,
                                 100 * std::ranges::max(shown)));
   }

@@ -22,9 +22,9 @@ struct ReplayBenchmarkOptions {
 /// frame's depth image in to see what it really reveals.
 ///
 /// A candidate is the camera that took the frame, where it was then: nothing is rejected, because
-/// whatever was recorded was possible, and nothing is moved by the servo. A method's pick is the
-/// candidate with the highest score, among equals the first. Real gain is the shadow of the two
-/// frames that is none any more in a classification of the three.
+/// all recorded poses were possible, and the servo moves nothing. A method's pick is the candidate
+/// with the highest score, among equals the first. Real gain is the shadow of the two frames that
+/// is no longer shadow in a classification of all three.
 ///
 /// Runs in the caller's task arena; the result is the same at any number of threads. If `stop`
 /// asked to stop, it has the pairs that were finished.

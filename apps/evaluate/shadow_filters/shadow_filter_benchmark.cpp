@@ -16,8 +16,8 @@ std::vector<VisibilityMesh> lattices_of(const PlanningCell& cell,
   for (const DepthCamera& observer : cell.world.cameras) {
     if (observer.depth == nullptr) {
       throw bad_input(cell.name, "camera \"" + observer.name +
-                                     "\" has no depth image; visibility meshes are made of them. "
-                                     "Expected +ideal or +noisy");
+                                     "\" has no depth image, which visibility meshes are made "
+                                     "from; expected +ideal or +noisy");
     }
     auto lattice = visibility_lattice({observer.camera, observer.depth}, cell.request.work_area,
                                       cell.request.volume.noise, options);

@@ -1,6 +1,6 @@
 #include "evaluate/shadow_filters/shadow_filter_json.hpp"
 
-#include "cli/optional_json.hpp"
+#include "evaluate/optional_json.hpp"
 #include "version.hpp"
 
 namespace vantage {

@@ -61,7 +61,7 @@ double diameter_m(const std::vector<Eigen::Vector3d>& vertices) {
 
 ErrorModel error_model(const TriangleMesh& mesh, const Symmetries& symmetries) {
   if (mesh.vertices().empty()) {
-    throw bad_input("mesh", "it has no vertices, so no error can be measured at them");
+    throw bad_input("mesh", "it has no vertices to measure an error at");
   }
   ErrorModel model{{}, symmetry_motions(symmetries), 0};
   for (const Eigen::Vector3f& vertex : mesh.vertices()) {

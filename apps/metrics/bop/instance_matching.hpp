@@ -7,7 +7,7 @@
 
 namespace vantage {
 
-/// The true object that an estimate stands for, and how far it is from it.
+/// The true object that an estimate was matched to, and its error.
 struct Match {
   std::size_t truth = 0;
   double error = 0;

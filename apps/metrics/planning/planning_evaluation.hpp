@@ -70,12 +70,12 @@ struct SceneEvaluation {
 };
 
 /// The thesis' chapter 9 on simulated scenes. The first method is `voxel`, which the others are
-/// held against; of sets the full one, if it is there, comes first.
+/// compared with; the full set, if there is one, comes first.
 struct PlanningEvaluation {
   std::vector<std::string> methods;
   int servo_iterations = 0;
   std::vector<SceneEvaluation> scenes;
-  int polished_views = 0;  ///< so many of a method's best
+  int polished_views = 0;  ///< number of a method's best
 };
 
 /// A method's run in a set; null if there is none.
@@ -107,7 +107,7 @@ struct SetComparison {
 /// None unless both sets were evaluated, gave picks with a vox score, and were timed.
 std::optional<SetComparison> compare_sets(const SceneEvaluation& scene, const std::string& method);
 
-/// Means over the scenes that have such figures.
+/// Means over the scenes that have values.
 struct MethodMeans {
   std::size_t scenes = 0;  ///< with a vox ratio
   std::optional<double> vox_ratio, run_time_s, true_gain_m3, regret_m3;

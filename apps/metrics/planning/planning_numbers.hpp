@@ -6,7 +6,7 @@
 
 namespace vantage {
 
-// Figures as the report of an evaluation of planning prints them; what there is not is a dash.
+// Numbers as the report of an evaluation of planning prints them; a missing value is a dash.
 
 inline constexpr const char* kNone = "–";
 

@@ -87,7 +87,7 @@ std::string paragraph(const char* look, const std::string& text) {
   return fmt::format("<p class=\"{}\">{}</p>\n", look, xml_escaped(text));
 }
 
-/// The best and the mean, in a sentence.
+/// The best and the mean, in one sentence.
 std::string headline(const PlanningEvaluation& evaluation) {
   std::string text;
   const std::vector<std::string> sets = sets_of(evaluation);

@@ -71,9 +71,9 @@ ReportTable quality_table(const PlanningEvaluation& evaluation) {
         quality_row(method, mean_comparison(evaluation, method), quality_of(thesis_mean(method))));
   }
   table.note =
-      "Quotients of the picks' vox scores. production / full: 1 or more means that the few views "
-      "are as good as the many. full / production is what the thesis calls vox quality: there, "
-      "less is better.";
+      "Ratios of the picks' vox scores. production / full: 1 or more means that the small set is "
+      "as good as the large one. full / production is what the thesis calls vox quality: there, "
+      "lower is better.";
   return table;
 }
 

@@ -36,16 +36,16 @@ std::vector<std::string> sets_of(const PlanningEvaluation& evaluation) {
 std::vector<std::string> remarks_on(const SceneEvaluation& scene) {
   std::vector<std::string> remarks;
   if (scene.shadow_voxels == 0) {
-    remarks.push_back(fmt::format(
-        "{}: no shadow at all. What is known there hides nothing from these cameras, so that no "
-        "method that goes by the known objects can suggest a view (as the thesis' figure 9.14 "
-        "has it); depth images show what foreign objects hide: +ideal or +noisy.",
-        scene.name));
+    remarks.push_back(
+        fmt::format("{}: no shadow at all. The known objects hide nothing from these cameras, so "
+                    "methods that rely on known objects cannot suggest a view (as in the thesis' "
+                    "figure 9.14); depth images show what foreign objects hide: +ideal or +noisy.",
+                    scene.name));
   } else if (scene.truly_hidden_m3 > 2 * scene.shadow_m3()) {
-    remarks.push_back(fmt::format(
-        "{}: {} cm³ are truly hidden, but only {} cm³ of it can be known of: the rest is hidden "
-        "by what nobody knows.",
-        scene.name, cm3_text(scene.truly_hidden_m3), cm3_text(scene.shadow_m3())));
+    remarks.push_back(
+        fmt::format("{}: {} cm³ are truly hidden, but only {} cm³ of that can be inferred: the "
+                    "rest is hidden by unknown objects.",
+                    scene.name, cm3_text(scene.truly_hidden_m3), cm3_text(scene.shadow_m3())));
   }
   for (const SetEvaluation& set : scene.sets) {
     if (set.feasible > 0) continue;
@@ -80,9 +80,9 @@ ReportTable scenes_table(const PlanningEvaluation& evaluation) {
           median_text(scene.classify_s)}});
   }
   table.note =
-      "Shadow: neither occupied nor seen, as far as known objects and depth images tell; unknown "
-      "to the cameras because it is hidden or in no camera's view. Truly hidden: the same with "
-      "everything that really stands there.";
+      "Shadow: neither occupied nor seen, judging by known objects and depth images; either hidden "
+      "or outside every camera's view. Truly hidden: the same with all objects that are really "
+      "there.";
   return table;
 }
 

@@ -50,8 +50,8 @@ ReportTable servo_table(const SceneEvaluation& scene) {
     if (run.pick) append_steps(table, scene, run);
   }
   table.note =
-      "Marked: the step with the best method score, which is the pick. Polishing, which the thesis "
-      "does not have, goes on from the best iteration. The thesis' method scores are of its own "
+      "Marked: the step with the best method score, which is the pick. Polishing, which is not in "
+      "the thesis, continues from the best iteration. The thesis' method scores are for its own "
       "scenes and images.";
   return table;
 }

@@ -108,8 +108,9 @@ ReportTable comparison_table(const PlanningEvaluation& evaluation, const std::st
       "score of the voxel method's pick" +
       std::string(full ? "" : " from the first set") +
       ". True gain: truly hidden volume that the view really sees; true regret: how much more the "
-      "best known would have seen: of all these views and their servo iterations, polished by "
-      "what they really see, and of the picks. Run time: from a classified grid to the answer.";
+      "best known view would have seen, which is the best of all these views and their servo "
+      "iterations, polished by what they really see, and of the picks. Run time: from a classified "
+      "grid to the answer.";
   return table;
 }
 

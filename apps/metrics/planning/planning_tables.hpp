@@ -8,8 +8,8 @@
 
 namespace vantage {
 
-// The thesis' tables 9.1 to 9.6 with our figures, and the thesis' beside them where it has any. Of
-// the evaluation's figures none is missing; what does not exist is a dash.
+// The thesis' tables 9.1 to 9.6 with our figures, and the thesis' beside them where it has any.
+// They contain all figures of the evaluation; a missing value is a dash.
 
 /// The scenes: what is occupied, hidden, and truly hidden, and how many views are feasible.
 ReportTable scenes_table(const PlanningEvaluation& evaluation);
@@ -24,13 +24,13 @@ ReportTable quality_table(const PlanningEvaluation& evaluation);
 /// what polishing made of it.
 ReportTable servo_table(const SceneEvaluation& scene);
 
-/// Those that an evaluation has, in the order of reading.
+/// All tables that an evaluation has, in reading order.
 std::vector<ReportTable> planning_tables(const PlanningEvaluation& evaluation);
 
 /// Sets that were evaluated in some scene, in their order.
 std::vector<std::string> sets_of(const PlanningEvaluation& evaluation);
 
-/// What has to be said of a scene, e.g. that nothing in it casts a shadow; most often nothing.
+/// Remarks on a scene, e.g. that nothing in it casts a shadow; usually none.
 std::vector<std::string> remarks_on(const SceneEvaluation& scene);
 
 }  // namespace vantage

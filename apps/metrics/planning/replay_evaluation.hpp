@@ -12,10 +12,10 @@ namespace vantage {
 /// A recorded frame as the view to take after two others.
 struct ReplayView {
   int frame = 0;                    ///< its image's id
-  double predicted_gain_m3 = 0;     ///< the shadow that it has in sight, by the voxel method
-  double real_gain_m3 = 0;          ///< the shadow that is none any more with its depth image
+  double predicted_gain_m3 = 0;     ///< the shadow in its line of sight, by the voxel method
+  double real_gain_m3 = 0;          ///< the shadow that its depth image turns free or occupied
   std::vector<double> scores = {};  ///< by every method, in that method's unit
-  double expected_gain_m3 = 0;      ///< what it is expected to reveal of what it has in sight
+  double expected_gain_m3 = 0;      ///< how much of that it is expected to reveal
 };
 
 /// Two frames as the cameras, and all others as the candidates.
@@ -45,10 +45,10 @@ struct PickWorth {
   std::size_t rank = 1;      ///< 1 + how many views revealed more
 };
 
-/// Of the pick of method number `method`; nothing where no view revealed anything.
+/// Of method `method`'s pick; nothing where no view revealed anything.
 std::optional<PickWorth> worth_of(const ReplayPair& pair, std::size_t method);
 
-/// Means over the pairs of which there is something to say.
+/// Means over the pairs in which some view revealed something.
 struct ReplayMeans {
   std::size_t pairs = 0;
   double share_of_best = 0, min_share_of_best = 0, times_mean = 0, rank = 0;
@@ -62,7 +62,7 @@ std::optional<ReplayMeans> replay_means(const ReplayEvaluation& evaluation, std:
 /// the mean over the pairs. Nothing without a pair whose frames differ.
 std::optional<double> expected_rank_correlation(const ReplayEvaluation& evaluation);
 
-/// What a blind choice among the views would give: the mean of the views' mean gain / the best
+/// What a random choice among the views would give: the mean of the views' mean gain / the best
 /// view's.
 std::optional<double> blind_share_of_best(const ReplayEvaluation& evaluation);
 

@@ -72,11 +72,10 @@ ReportTable means_table(const ReplayEvaluation& evaluation) {
       {{"any frame", kNone, kNone, kNone, percent_text(blind_share_of_best(evaluation)), kNone,
         factor_text(1), kNone}});
   table.note =
-      "Two frames of the recording are the cameras; a method picks one of all the others by its "
-      "pose alone. Real gain: the shadow of the two that is none any more with that frame's depth "
-      "image. Predicted: the shadow that the pick has in sight, by the voxel method; expected: "
-      "what "
-      "of that it should reveal. Any frame: the mean of all of them.";
+      "Two frames of the recording are the cameras; a method picks one of the others by its pose "
+      "alone. Real gain: shadow of the two frames that the picked frame's depth image turns free "
+      "or occupied. Predicted: shadow in the pick's line of sight, by the voxel method; expected: "
+      "how much of that it should reveal. Any frame: the mean over all frames.";
   if (const auto correlation = expected_rank_correlation(evaluation)) {
     table.note += fmt::format(
         " Rank correlation of expected and real gain over all frames: {:.3f}.", *correlation);

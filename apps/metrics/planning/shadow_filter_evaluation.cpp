@@ -27,22 +27,20 @@ std::vector<std::string> filter_cells(const ShadowFilter& filter) {
 }
 
 ReportTable means_table(const ShadowFilterEvaluation& evaluation, std::size_t best) {
-  ReportTable table{
-      fmt::format("False-shadow filters: means over {} scenes, voxels of {:g} mm",
-                  evaluation.scenes.size(), 1e3 * evaluation.voxel_size_m),
-      {{"offset, σ"},
-       {"opening, voxels"},
-       {"regions from, cm³"},
-       {"precision"},
-       {"recall"},
-       {"F1"},
-       {"false, cm³"},
-       {"missed, cm³"}},
-      {},
-      "Shadow volume against what ideal sensors at the same places would leave unseen. Solid "
-      "voxels, "
-      "those in no camera's view, and those at the boundary between the seen and the rest do not "
-      "count."};
+  ReportTable table{fmt::format("False-shadow filters: means over {} scenes, voxels of {:g} mm",
+                                evaluation.scenes.size(), 1e3 * evaluation.voxel_size_m),
+                    {{"offset, σ"},
+                     {"opening, voxels"},
+                     {"regions from, cm³"},
+                     {"precision"},
+                     {"recall"},
+                     {"F1"},
+                     {"false, cm³"},
+                     {"missed, cm³"}},
+                    {},
+                    "Shadow volume against what ideal sensors at the same poses would leave "
+                    "unseen. Solid voxels, voxels outside every camera's view and voxels at the "
+                    "boundary of the seen volume are not counted."};
   for (std::size_t i = 0; i < evaluation.filters.size(); ++i) {
     const FilterMeans means = means_of(evaluation, i);
     TableRow row{filter_cells(evaluation.filters[i]),
@@ -65,7 +63,7 @@ TableRow scene_row(const std::string& name, const ShadowScore& score, RowKind ki
 }
 
 ReportTable scenes_table(const ShadowFilterEvaluation& evaluation, std::size_t best) {
-  ReportTable table{"Scene by scene: the first filter, and the best one",
+  ReportTable table{"By scene: the first filter and the best one",
                     {{"filter", "", true},
                      {"precision"},
                      {"recall"},

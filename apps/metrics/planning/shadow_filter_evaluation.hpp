@@ -10,14 +10,14 @@
 
 namespace vantage {
 
-/// A way to be rid of false shadow; all zeros is none.
+/// A filter for false shadow; all zeros: no filter.
 struct ShadowFilter {
   double offset_sigmas = 0;  ///< of the visibility mesh's surface
   int opening_voxels = 0;    ///< the radius of the opening
-  double min_m3 = 0;         ///< what is left in smaller regions goes
+  double min_m3 = 0;         ///< smaller connected regions are removed
 };
 
-/// What the filters make of one scene; as many scores as there are filters.
+/// The filters' scores in one scene, one for each filter.
 struct FilteredScene {
   std::string name;
   double hidden_m3 = 0;  ///< truly, in some camera's view and off the boundary
@@ -31,7 +31,7 @@ struct ShadowFilterEvaluation {
   std::vector<FilteredScene> scenes;
 };
 
-/// A filter's means over the scenes that have such figures.
+/// A filter's means over the scenes that have values.
 struct FilterMeans {
   std::optional<double> precision, recall, f1;
   double false_m3 = 0, missed_m3 = 0;

@@ -23,7 +23,7 @@ struct ShadowScore {
   std::optional<double> f1() const;
 };
 
-/// What is truly hidden in a cell, to hold shadow against.
+/// What is truly hidden in a cell, to compare shadow with.
 ///
 /// Three kinds of voxels count for nothing: what is truly solid ("solid or shadow", thesis 7.4.3,
 /// tells no difference), what no camera has in view (every method gets that right), and the

@@ -128,8 +128,8 @@ std::string error_plot_svg(const std::string& title, const std::string& x_label,
       svg += draw_series(panels[i], s, frame);
   }
   svg += svg_text(kPanelLeft - 54, height - 12, "note",
-                  std::string("Means; bars: one standard deviation of the sample each way") +
-                      (logarithmic ? "; an arrow where it reaches below the scale" : ""));
+                  std::string("Means; bars: one sample standard deviation each way") +
+                      (logarithmic ? "; an arrow where it extends below the scale" : ""));
   return svg_page(width, height, svg);
 }
 

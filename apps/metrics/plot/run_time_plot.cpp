@@ -133,7 +133,7 @@ std::string draw_legend(const std::vector<TimePlotSeries>& series) {
     x += 44 + 8 * double(series[s].name.size());
     thesis = thesis || !series[s].thesis.empty();
   }
-  std::string note = "Lines lead to marks' places.";
+  std::string note = "Leader lines end where a shifted mark belongs.";
   if (thesis) {
     note +=
         " Hollow: the thesis' figures, on its own scenes and machine (an i7-6700HQ with a GPU).";

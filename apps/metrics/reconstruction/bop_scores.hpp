@@ -10,14 +10,14 @@
 
 namespace vantage {
 
-/// An image in which a reconstruction is held against the truth.
+/// An image in which a reconstruction is compared with the ground truth.
 struct ScoredImage {
   Intrinsics camera;
   Pose T_world_cam;
   std::shared_ptr<const DepthImage> depth;  ///< null: VSD is not measured, and nothing hides
 };
 
-/// BOP's errors of an estimate, against the true object that it stands for
+/// BOP's errors of an estimate, relative to the true object that it was matched to
 /// (`ReconstructionEvaluator::matches`). Those of `ObjectErrors` have symmetries taken out; of
 /// these, MSSD alone knows of them.
 struct EstimateErrors {

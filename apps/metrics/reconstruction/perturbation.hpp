@@ -8,8 +8,8 @@
 
 namespace vantage {
 
-/// What a worse detector would have done to the observations. The same seed and trial, the same
-/// disturbance, whoever asks and in whatever order.
+/// Simulates a worse detector. The same seed and trial give the same perturbation, independent of
+/// the order of calls.
 struct Perturbation {
   double noise_px = 0;   ///< standard deviation added to each coordinate of points
   double drop = 0;       ///< share of the observations that are lost
@@ -21,7 +21,7 @@ struct Perturbation {
   void check() const;
 };
 
-/// The views with disturbed observations; `sigma_px` says so.
+/// The views with perturbed observations; their `sigma_px` includes the noise.
 /// @param keys that a detector may read by mistake. Only keys of the same type are taken, and an
 /// observation without another key of its type keeps its own.
 std::vector<CameraView> disturbed(std::span<const CameraView> views,

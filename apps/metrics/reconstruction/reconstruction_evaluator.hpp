@@ -22,7 +22,7 @@ struct ObjectErrors {
   double mssd_m = 0;
 };
 
-/// A reconstruction held against the truth.
+/// A reconstruction compared with the ground truth.
 struct ReconstructionScore {
   std::size_t true_objects = 0;  ///< that are to be found
   std::size_t estimates = 0;
@@ -34,7 +34,7 @@ struct ReconstructionScore {
       {};  ///< if every object that touches another is there
 };
 
-/// Knows the true scene, and judges reconstructions of it. Immutable; thread-safe.
+/// Knows the true scene, and scores reconstructions of it. Immutable; thread-safe.
 ///
 /// Estimates are matched to true objects of their type by MSSD, in shares of the object's diameter,
 /// as `match_instances` does: with a threshold for what counts as correct, and without one for the
@@ -53,7 +53,7 @@ class ReconstructionEvaluator {
   ReconstructionScore evaluator(const Reconstruction& reconstruction,
                                 const std::vector<bool>& counts) const;
 
-  /// Without a threshold: for each estimate the true object of its type that it stands for.
+  /// Without a threshold: for each estimate the true object of its type that it was matched to.
   std::vector<std::optional<Match>> matches(const Reconstruction& reconstruction) const;
 
  private:

@@ -22,7 +22,7 @@ struct EvaluatedMethod {
 struct SubsetPlan {
   std::vector<CameraSubset> subsets;
   Perturbation perturbation = {};
-  std::size_t trials = 1;                ///< of the disturbance, for each subset
+  std::size_t trials = 1;                ///< of the perturbation, for each subset
   std::vector<FeatureKey> keys = {};     ///< see `disturbed`
   std::vector<FeatureKey> ignored = {};  ///< observations with these are left out after disturbing
 };
@@ -35,8 +35,8 @@ struct SubsetRun {
 
 /// Runs every method on every subset in every trial, in the caller's task arena. An object is to be
 /// found if a camera of the subset sees it (`seen_objects`, before anything is disturbed).
-/// @returns runs in the order of subsets, then of trials, at any number of threads; without sense
-/// if `stop` was cancelled.
+/// @returns runs in the order of subsets, then of trials, at any number of threads; the result is
+/// meaningless if `stop` was cancelled.
 std::vector<SubsetRun> evaluate_subsets(std::span<const CameraView> views,
                                         const ReconstructionEvaluator& evaluator,
                                         std::span<const EvaluatedMethod> methods,

@@ -26,7 +26,7 @@ std::string floor_hint(const Plan& plan) {
                                         &ScoredCandidate::rejected);
   if (2 * below < std::ssize(plan.candidates) || below == 0) return "";
   return fmt::format(
-      "floor      most candidates are below the floor at z = {} m: if it is elsewhere, say so with "
+      "floor      most candidates are below the floor at z = {} m: if the floor is elsewhere, set "
       "--floor-z Z or none, or floor_z_m in the workcell\n",
       plan.request.constraints.floor_z_m.value_or(0));
 }
@@ -92,8 +92,8 @@ std::string shortlist_text(const Plan& plan) {
   const auto* const mesh = std::get_if<MeshMethod>(&plan.request.method);
   if (pruned == 0 || mesh == nullptr) return "";
   return fmt::format(
-      "shortlist  {} candidates were passed over for less shadow in a carved grid of {} m\n",
-      pruned, mesh->shortlist_voxel_m);
+      "shortlist  {} candidates were left out, with less shadow in a carved grid of {} m\n", pruned,
+      mesh->shortlist_voxel_m);
 }
 
 std::string origin_text(const Plan& plan, const RankedView& view) {
@@ -137,7 +137,7 @@ std::string best_summary(const Plan& plan) {
 }
 
 std::string no_view_summary(const Plan& plan) {
-  if (plan.stopped != StopReason::none) return "stopped before any score\n";
+  if (plan.stopped != StopReason::none) return "stopped before any view was scored\n";
   const bool all_rejected = std::all_of(
       plan.candidates.begin(), plan.candidates.end(),
       [](const ScoredCandidate& candidate) { return candidate.rejected != InvalidReason::none; });
@@ -181,7 +181,7 @@ std::string volume_summary(const Plan& plan, const ShadowRegions& regions) {
                         volume_text(double(grid.report().aliased_shadow) * voxel_m3));
   }
   if (grid.report().false_shadow > 0) {
-    text += fmt::format("filter     {} of thin shadow, as noise leaves it, became free\n",
+    text += fmt::format("filter     {} of thin shadow, which noise leaves, became free\n",
                         volume_text(double(grid.report().false_shadow) * voxel_m3));
   }
   for (const ObjectConflict& conflict : grid.report().conflicts) {
@@ -221,7 +221,7 @@ std::string summary_of(const Plan& plan, const ShadowRegions* regions,
     const bool searched = plan.finished == plan.candidates.size();
     text += fmt::format("partial    {} of {} candidates were finished{}\n", plan.finished,
                         plan.candidates.size(),
-                        searched ? ", but not what comes after: polishing, further views" : "");
+                        searched ? ", but polishing or further views were not" : "");
   }
   const std::string rejected = rejections(plan);
   if (!rejected.empty()) text += "rejected   " + rejected + "\n";

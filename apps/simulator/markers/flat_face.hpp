@@ -16,7 +16,7 @@ class FaceFinder {
  public:
   explicit FaceFinder(const TriangleMesh& mesh);
 
-  /// The triangles that lie in the plane of the triangle `seed` and hang together with it, corner
+  /// The triangles that lie in the plane of the triangle `seed` and are connected with it, corner
   /// by corner. In ascending order.
   std::vector<std::uint32_t> flat_face(std::uint32_t seed) const;
 

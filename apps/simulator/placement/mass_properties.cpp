@@ -47,17 +47,16 @@ MassProperties mass_properties(const TriangleMesh& mesh) {
 
   // The area vectors of a closed surface cancel; what is left of them is the size of its holes.
   if (sums.area.norm() > kOpen * sums.all_area) {
-    throw bad_input("mesh",
-                    fmt::format("it is open: a hole of about {:.3g} m² is left in {:.3g} m² "
-                                "of surface; expected a closed one, please close it",
-                                sums.area.norm(), sums.all_area));
+    throw bad_input("mesh", fmt::format("its surface is open: it has a hole of about {:.3g} m² in "
+                                        "{:.3g} m²; expected a closed surface: close the hole",
+                                        sums.area.norm(), sums.all_area));
   }
   const double edge = bounds.sizes().maxCoeff(), least = kFlat * edge * edge * edge;
   if (sums.volume <= least) {
     throw bad_input(
         "mesh",
         fmt::format("its volume is {:.3g} m³; expected more than {:.3g} m³{}", sums.volume, least,
-                    sums.volume < -least ? ": its faces look inwards, please turn them around"
+                    sums.volume < -least ? ": its faces point inwards; flip them"
                                          : ": a body with an inside"));
   }
   return {sums.volume, bounds.center() + sums.moment / sums.volume};

@@ -47,14 +47,13 @@ struct Dice {
 
 void check(const PlacementOptions& options) {
   if (!(options.gap_m >= kMinGap && std::isfinite(options.gap_m))) {
-    throw bad_input("gap_m",
-                    fmt::format("{} m found; expected {} m or more, which is what rays can "
-                                "tell apart",
-                                options.gap_m, kMinGap));
+    throw bad_input(
+        "gap_m", fmt::format("found {} m; expected {} m or more, the finest gap that rays resolve",
+                             options.gap_m, kMinGap));
   }
   if (!(options.upright_share >= 0 && options.upright_share <= 1)) {
     throw bad_input("upright_share",
-                    fmt::format("{} found; expected 0 to 1", options.upright_share));
+                    fmt::format("found {}; expected 0 to 1", options.upright_share));
   }
 }
 
@@ -151,9 +150,8 @@ std::vector<Pose> place_at_rest(std::span<const MeshPointer> bodies,
     if (!pose) {
       throw bad_input(
           "area",
-          fmt::format("{} of {} bodies are placed; in {} tries no room of {} x {} m was "
-                      "found for the next. Please widen the area, or place fewer bodies "
-                      "or smaller ones",
+          fmt::format("{} of {} bodies were placed; {} tries found no free spot of {} x {} m for "
+                      "the next one. Enlarge the area, or place fewer or smaller bodies",
                       i, bodies.size(), kTries, options.area.size().x(), options.area.size().y()));
     }
     placed.push_back({kind.shape, *pose});

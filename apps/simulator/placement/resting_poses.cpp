@@ -97,8 +97,8 @@ std::vector<RestingPose> resting_poses(const TriangleMesh& mesh) {
     stances.push_back(look_at(face, mass_centre));
     if (stances.back().height_m <= 0) {
       throw bad_input("mesh",
-                      "its centre of mass lies outside of it; expected closed surfaces "
-                      "whose faces all look outwards");
+                      "its centre of mass lies outside its surface; expected closed surfaces whose "
+                      "faces all point outwards");
     }
     all += stances.back().share;
   }

@@ -32,8 +32,8 @@ class GroundTruth {
   /// The true gain: how much of the hidden volume a new view really sees.
   double gain_m3(const PinholeCamera& view) const { return seen_m3(grid(), view); }
 
-  /// How much of what someone takes for shadow a new view really sees: inside the image and the
-  /// depth range, nothing true in between. To be held against what a planner promised for the view.
+  /// How much of a believed shadow a new view really sees: inside the image and the depth range,
+  /// nothing true in between. To be compared with what a planner predicted for the view.
   /// @param believed any grid of the same cell, at any resolution.
   double seen_m3(const StateGrid& believed, const PinholeCamera& view) const;
 

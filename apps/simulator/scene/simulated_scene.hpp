@@ -10,7 +10,7 @@
 
 namespace vantage {
 
-/// Something that truly stands in the simulated cell.
+/// Something that really is in the simulated cell.
 struct SimulatedBody {
   std::string name;
   std::shared_ptr<const TexturedMesh> shape;  ///< never null

@@ -39,7 +39,7 @@ std::string verdict_of(const Plan& plan, const ViewExplanation& view,
   const ScoredStep& best_step = view.trace[view.best_step];
   const Score own = best_step.score.score;
   const RankedView* best = plan.best();
-  if (best == nullptr) return "no view reveals any shadow, nor does this one";
+  if (best == nullptr) return "no view reveals any shadow, and neither does this one";
   const int best_id = plan.candidates[best->candidate].view.id;
   if (best_id == view.candidate.id) {
     return fmt::format("the best of {} candidates: {}{}", plan.candidates.size(),
@@ -50,10 +50,10 @@ std::string verdict_of(const Plan& plan, const ViewExplanation& view,
                                  best->polish.empty() ? "" : kPolished);
   const Score left = utility.of(own, utility.share(best_step.step.T_world_cam.translation()));
   if (plan.request.search.travel) {
-    text += fmt::format("; after the journey {} against {}", score_text(plan, left),
+    text += fmt::format("; after travel cost {} against {}", score_text(plan, left),
                         score_text(plan, best->utility));
   }
-  if (left == best->utility) text += "; of equals, the lower id wins";
+  if (left == best->utility) text += "; ties go to the lower id";
   if (plan.stopped != StopReason::none && left > best->utility) {
     text += "; it was not reached before the plan was stopped";
   }

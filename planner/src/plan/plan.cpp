@@ -18,7 +18,7 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-/// What is wrong with a request is said before any work is done.
+/// Errors in a request are reported before any work is done.
 void check(const PlanRequest& request) {
   (void)PinholeCamera(request.intrinsics, Pose(), request.range, "movable camera");
   request.constraints.check();

@@ -6,8 +6,8 @@
 
 namespace vantage::planner::detail {
 
-/// Polishes the first of `ranked` and sorts them anew; among equals the lower candidate stays
-/// first. All of them are at least as good as before, hence ahead of the others, as before.
+/// Polishes the first of `ranked` and sorts them again; among equals the lower candidate stays
+/// first. All of them score at least as high as before, hence they stay ahead of the others.
 ///
 /// @returns false if `stop` asked to stop before: then nothing is changed.
 bool polish(const PlannerContext& context, std::vector<RankedView>& ranked, const StopToken& stop);

@@ -123,7 +123,7 @@ void add_next_views(const WorldModel& world, const PlannerContext& context, Plan
   WorldModel seen = world;
   while (int(plan.views.size()) < plan.request.views.most && !stop.stop_requested()) {
     const Pose& last = plan.views.back().view.T_world_cam;
-    // A method that cannot bound one gain by another searches anew, the views before being taken.
+    // A method that cannot bound one gain by another searches again, with the views before taken.
     seen.cameras.push_back(taken(context.camera().moved_to(last), world, plan));
     const PlanRequest request = from_view(plan.request, last);
     const PlannerContext left(seen, plan.grid, request, plan.candidates.size());

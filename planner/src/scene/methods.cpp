@@ -40,7 +40,7 @@ void MeshMethod::check() const {
   }
   if (!(enlarge >= 1 && enlarge <= 10)) {  // also NaN
     throw bad_input("mesh",
-                    fmt::format("known objects are enlarged {} times; expected 1 to 10", enlarge));
+                    fmt::format("known objects are scaled by {}; expected 1 to 10", enlarge));
   }
   check_power(depth_power);
   if (image_width < 16 || image_width > 16384) {

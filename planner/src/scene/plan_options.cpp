@@ -36,9 +36,10 @@ void TravelCost::check() const {
 
 void SearchOptions::check() const {
   if (ranked < 1) {
-    throw bad_input("ranked", fmt::format("found {}; expected the number of best views to find for "
-                                          "certain, at least 1",
-                                          ranked));
+    throw bad_input(
+        "ranked",
+        fmt::format("found {}; expected the number of exactly ranked top candidates, at least 1",
+                    ranked));
   }
   if (travel) travel->check();
 }

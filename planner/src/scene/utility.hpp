@@ -12,7 +12,7 @@
 
 namespace vantage::planner::detail {
 
-/// What is left of a score after the journey, in integers: a share of 2^32 parts.
+/// What is left of a score after travel cost, in integers: a share of 2^32 parts.
 class Utility {
  public:
   explicit Utility(const std::optional<TravelCost>& travel) : travel_(travel) {}

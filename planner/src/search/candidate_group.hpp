@@ -35,7 +35,7 @@ std::vector<GroupRange> sites_of(std::span<const ViewCandidate> candidates);
 /// All groups, evenly golden_ratio_order over the list: one step is about the golden ratio of it.
 std::vector<GroupRange> golden_ratio_order(const std::vector<GroupRange>& camera_groups);
 
-/// How many candidates were rejected, scored, surpassed or passed over.
+/// How many candidates were rejected, scored, surpassed or pruned.
 std::size_t finished(std::span<const ScoredCandidate> candidates);
 
 /// The work on one group: first `prepare`, which finds where the camera could go and bounds what
@@ -59,7 +59,7 @@ class CandidateGroup {
   /// @param ranking as it was before; must not change meanwhile.
   void score(const TopK& top, const StopToken& stop);
 
-  /// What came of each candidate, and those with a place among the best.
+  /// The result of each candidate, and those among the best.
   void report(std::span<ScoredCandidate> results, TopK& top) const;
 
  private:
@@ -68,7 +68,7 @@ class CandidateGroup {
     std::size_t candidate = 0;  ///< in the group
     int iteration = 0;
     PinholeCamera view;
-    std::uint64_t share = 0;  ///< that the journey leaves of its score
+    std::uint64_t share = 0;  ///< its score after travel cost
     ScoreBound score;         ///< first the upper bound
 
     Score utility() const { return Utility::of(score.score, share); }

@@ -6,8 +6,8 @@
 
 namespace vantage::planner::detail {
 
-/// Finds the best of many candidates by a method too dear for all of them: a cheaper one, of which
-/// nothing is certain, picks a shortlist, and those are scored exactly.
+/// Finds the best of many candidates by a method that is too expensive to run on all of them: a
+/// cheaper one, without guarantees, picks a shortlist, and those are scored exactly.
 ///
 /// In rounds, each about twice as large as the one before, so that there is an answer soon. What
 /// was not on the shortlist is `pruned`; the best of the others are found for certain.

@@ -23,13 +23,14 @@ std::size_t checked_size(const fs::path& path, int file, std::size_t max_bytes) 
   struct stat status = {};
   if (::fstat(file, &status) != 0) throw system_error(path, "cannot be read", errno);
   if (!S_ISREG(status.st_mode)) {
-    throw bad_input(path.string(), S_ISDIR(status.st_mode)
-                                       ? "is a folder; expected a file"
-                                       : "is no regular file; expected one that can be read whole");
+    throw bad_input(path.string(),
+                    S_ISDIR(status.st_mode)
+                        ? "is a folder; expected a file"
+                        : "is not a regular file; expected one that can be read as a whole");
   }
   if (std::uintmax_t(status.st_size) > max_bytes) {
-    throw bad_input(path.string(), fmt::format("has {} bytes; at most {} are read here",
-                                               status.st_size, max_bytes));
+    throw bad_input(path.string(),
+                    fmt::format("has {} bytes; the limit is {}", status.st_size, max_bytes));
   }
   return std::size_t(status.st_size);
 }
@@ -53,8 +54,8 @@ void check_no_pointer(const fs::path& path, const std::vector<std::uint8_t>& byt
   const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   if (bytes.size() > 1024 || !text.starts_with(kStart)) return;
   throw bad_input(path.string(),
-                  "is a pointer of Git LFS, not the file itself; install git-lfs and run "
-                  "\"git lfs pull\" in the repository that it comes from");
+                  "is a Git LFS pointer, not the file itself; install git-lfs and run \"git lfs "
+                  "pull\" in the repository that it comes from");
 }
 
 void write_all(const fs::path& path, int file, std::string_view bytes) {

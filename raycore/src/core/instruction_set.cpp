@@ -37,9 +37,9 @@ InstructionSet limit() {
   if (value == nullptr || *value == '\0') return InstructionSet::avx512;
   const auto* name = std::find(kNames.begin(), kNames.end(), value);
   if (name != kNames.end()) return InstructionSet(name - kNames.begin());
-  throw bad_input(kVariable, fmt::format("the environment variable is '{}'; expected {}, or that "
-                                         "it is not set",
-                                         value, fmt::join(kNames, ", ")));
+  throw bad_input(kVariable,
+                  fmt::format("the environment variable is '{}'; expected {}, or an unset variable",
+                              value, fmt::join(kNames, ", ")));
 }
 
 }  // namespace

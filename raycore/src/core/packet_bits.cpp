@@ -16,8 +16,7 @@ void check_packets(std::size_t points, std::span<const std::uint32_t> packets,
   for (const std::size_t size : sizes) check_batch_size("an array", size, packets.size());
   for (const std::uint32_t packet : packets) {
     if (packet < points / kPacketWidth) continue;
-    throw bad_input("batch", fmt::format("packet {} of {} points; expected packets of {} that are "
-                                         "there in full",
+    throw bad_input("batch", fmt::format("packet {} of {} points; expected complete packets of {}",
                                          packet, points, kPacketWidth));
   }
 }

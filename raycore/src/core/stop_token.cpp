@@ -42,7 +42,7 @@ void StopToken::advance(std::uint64_t steps) const noexcept {
 double StopToken::progress() const noexcept {
   const double expected = double(state_->expected.load());
   const double now = expected > 0 ? std::min(1.0, double(state_->done.load()) / expected) : 0.0;
-  double shown = state_->reported.load();  // more work may turn up: the figure never goes back
+  double shown = state_->reported.load();  // more work may turn up: the share never decreases
   while (shown < now && !state_->reported.compare_exchange_weak(shown, now)) {
   }
   return std::max(shown, now);

@@ -116,7 +116,7 @@ void TemporaryFile::check_target() const {
     throw bad_input(target_.string(), "is a folder; expected the name of a file to write");
   }
   if (fs::exists(status) && !fs::is_regular_file(status)) {
-    throw bad_input(target_.string(), "is there already and is no regular file; name another");
+    throw bad_input(target_.string(), "exists and is not a regular file; name another one");
   }
 }
 

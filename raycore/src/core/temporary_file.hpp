@@ -32,7 +32,7 @@ class Descriptor {
 };
 
 /// The Error for the system's error number `code`: out_of_resources where something is used up or
-/// broken, bad_input where it is the user's to mend.
+/// broken, bad_input where the user can fix it.
 Error system_error(const std::filesystem::path& path, const char* what, int code);
 
 /// A new, empty file beside the target, which takes the target's place or goes away. It is locked

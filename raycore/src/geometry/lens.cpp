@@ -32,17 +32,17 @@ std::string text_of(const Distortion& d) {
 }
 
 Error folds(const std::string& where, const Distortion& d, double u, double v) {
-  return bad_input(where,
-                   fmt::format("with {} the image folds over before pixel ({:.1f}, {:.1f}); "
-                               "expected coefficients that hold up to the border of the image, as "
-                               "a calibration gives whose pictures reach its corners",
-                               text_of(d), u, v));
+  return bad_input(
+      where,
+      fmt::format(
+          "with {} the image folds over before pixel ({:.1f}, {:.1f}); expected coefficients that "
+          "hold up to the border of the image: calibrate with pictures that reach its corners",
+          text_of(d), u, v));
 }
 
 Error too_wide(const std::string& where, double u, double v) {
-  return bad_input(where, fmt::format("pixel ({:.1f}, {:.1f}) looks more than {:.0f}° off the "
-                                      "optical axis, where fisheye images are not used; crop "
-                                      "the image or look at its middle",
+  return bad_input(where, fmt::format("pixel ({:.1f}, {:.1f}) is more than {:.0f}° off the optical "
+                                      "axis, where fisheye images are not used; crop the image",
                                       u, v, Lens::kMaxFisheyeAngle * 57.29577951308232));
 }
 
@@ -74,9 +74,9 @@ void Lens::check_coefficients() const {
     throw bad_input(where_, fmt::format("a coefficient is {}; expected finite numbers", c));
   }
   if (d_.model == LensModel::fisheye && (d_.p1 != 0 || d_.p2 != 0 || d_.k5 != 0 || d_.k6 != 0)) {
-    throw bad_input(where_,
-                    "a fisheye lens has coefficients k1 to k4 alone; expected 0 for p1, "
-                    "p2, k5 and k6");
+    throw bad_input(
+        where_,
+        "a fisheye lens has only the coefficients k1 to k4; expected 0 for p1, p2, k5 and k6");
   }
 }
 

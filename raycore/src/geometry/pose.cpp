@@ -35,7 +35,7 @@ Pose Pose::from_rotation(const Eigen::Matrix3d& rotation, const Eigen::Vector3d&
       (rotation.transpose() * rotation - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
   if (!(off <= kTolerance)) {
     throw bad_input(std::string(where),
-                    fmt::format("this is no rotation: RᵀR differs from the identity by {:.3g}; "
+                    fmt::format("this is not a rotation: RᵀR differs from the identity by {:.3g}; "
                                 "expected an orthonormal 3×3 matrix, row by row",
                                 off));
   }
@@ -70,7 +70,7 @@ Pose Pose::looking_at(const Eigen::Vector3d& eye, const Eigen::Vector3d& target)
   check_translation(target, "target");
   const Eigen::Vector3d towards = target - eye;
   if (towards.isZero(0)) {
-    throw bad_input("target", "it coincides with the eye: no direction to look");
+    throw bad_input("target", "it coincides with the eye, so there is no viewing direction");
   }
   if (!towards.allFinite()) throw bad_input("target", "it is too far from the eye");
   const Eigen::Vector3d forward = towards.stableNormalized();
@@ -87,7 +87,7 @@ Eigen::Quaterniond rotation_between(const Eigen::Vector3d& from, const Eigen::Ve
   const Eigen::Vector3d a = from.normalized(), b = to.normalized();
   const Eigen::Vector3d across = a.cross(b);
   const double sine = across.norm();
-  const bool parallel = sine < 1e-12;  // the rest is rounding, and says nothing of an axis
+  const bool parallel = sine < 1e-12;  // the rest is rounding, and does not determine an axis
   if (parallel && a.dot(b) > 0) return Eigen::Quaterniond::Identity();
   const Eigen::Vector3d axis = parallel ? a.unitOrthogonal() : Eigen::Vector3d(across / sine);
   // Half the angle's cosine and sine, without cancellation near half a turn.

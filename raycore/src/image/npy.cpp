@@ -136,8 +136,8 @@ HeaderPlace header_place(std::span<const std::uint8_t> bytes, const std::string&
                                        [](char a, std::uint8_t b) { return std::uint8_t(a) == b; });
   if (!magic) {
     throw bad_input(where,
-                    "this is no NumPy array: it does not begin with \\x93NUMPY; expected "
-                    "what numpy.save writes");
+                    "this is not a NumPy array: it does not begin with \\x93NUMPY; expected what "
+                    "numpy.save writes");
   }
   const int version = bytes[6];
   if (version < 1 || version > 3) {
@@ -151,9 +151,10 @@ HeaderPlace header_place(std::span<const std::uint8_t> bytes, const std::string&
     length |= std::size_t(bytes[8 + i]) << (8 * i);
   }
   if (length > kLongestHeader || begin + length > bytes.size()) {
-    throw bad_input(where, fmt::format("its header is said to have {} bytes, of {} in the file; "
-                                       "expected a whole header of up to {}; is it truncated?",
-                                       length, bytes.size(), kLongestHeader));
+    throw bad_input(where,
+                    fmt::format("its header states a length of {} bytes, and the file has {}; "
+                                "expected a complete header of up to {}; is it truncated?",
+                                length, bytes.size(), kLongestHeader));
   }
   return {begin, begin + length};
 }

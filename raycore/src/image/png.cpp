@@ -156,7 +156,7 @@ void write_image(const fs::path& path, const Image<Sample, kChannels>& image, in
   Encoder encoder;
   if (!encoder.encode(png_uint_32(image.width), png_uint_32(image.height), 8 * sizeof(Sample),
                       color_type, effort, rows.data())) {
-    throw bad_input(path.string(), fmt::format("cannot be made into a PNG: {}", encoder.message()));
+    throw bad_input(path.string(), fmt::format("cannot be encoded as PNG: {}", encoder.message()));
   }
   write_file(path, encoder.bytes());
 }
@@ -187,7 +187,7 @@ struct Size {
 Size check_header(std::span<const std::uint8_t> bytes, const std::string& file) {
   if (bytes.empty()) throw bad_input(file, "is empty; expected a 16-bit grey PNG");
   if (png_sig_cmp(bytes.data(), 0, std::min<std::size_t>(bytes.size(), 8)) != 0) {
-    throw bad_input(file, "is no PNG (its first bytes are others); expected a 16-bit grey PNG");
+    throw bad_input(file, "is not a PNG (its first bytes differ); expected a 16-bit grey PNG");
   }
   if (bytes.size() < kHeaderBytes) {
     throw bad_input(file, fmt::format("ends after {} bytes, within the PNG header; it is truncated",

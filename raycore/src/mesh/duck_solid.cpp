@@ -161,7 +161,7 @@ TriangleMesh duck_solid(double length_m) {
   }
   TriangleMesh mesh(std::move(vertices), raycore::detail::cut_in_two(duck), "duck");
   if (mesh.dropped_degenerate() > 0) {
-    throw bad_input("length_m", "the duck is so small that floats cannot hold its faces apart");
+    throw bad_input("length_m", "the duck is too small for floats to keep its faces apart");
   }
   return mesh;
 }

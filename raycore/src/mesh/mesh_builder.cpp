@@ -25,16 +25,16 @@ Eigen::Matrix3d turn_up(UpAxis up) {
 
 }  // namespace
 
-void MeshCollector::reserve(std::size_t vertices, std::size_t triangles) {
+void MeshBuilder::reserve(std::size_t vertices, std::size_t triangles) {
   vertices_.reserve(vertices);
   triangles_.reserve(triangles);
 }
 
-void MeshCollector::set_file_up(UpAxis up) {
+void MeshBuilder::set_file_up(UpAxis up) {
   T_mesh_file_ = turn_up(frame_.up.value_or(up));
 }
 
-void MeshCollector::add_vertex(const Eigen::Vector3d& p_file, const FilePlace& place) {
+void MeshBuilder::add_vertex(const Eigen::Vector3d& p_file, const FilePlace& place) {
   if (vertices_.size() >= std::numeric_limits<std::uint32_t>::max()) {
     throw Error(ErrorCode::out_of_resources, place.text(),
                 "a mesh holds at most 4294967295 vertices");
@@ -49,7 +49,7 @@ void MeshCollector::add_vertex(const Eigen::Vector3d& p_file, const FilePlace& p
   vertices_.push_back(Eigen::Vector3f::Zero());
 }
 
-void MeshCollector::fail_at(const BadVertex& bad) const {
+void MeshBuilder::fail_at(const BadVertex& bad) const {
   if (!bad.p_file.allFinite()) {
     bad.place.fail(
         fmt::format("the vertex is {}; expected finite coordinates", to_text(bad.p_file)));
@@ -60,7 +60,7 @@ void MeshCollector::fail_at(const BadVertex& bad) const {
                   to_text(bad.p_file), frame_.unit_m, kMaxCoordinate));
 }
 
-void MeshCollector::add_polygon(std::span<const std::int64_t> corners, std::uint64_t vertex_count,
+void MeshBuilder::add_polygon(std::span<const std::int64_t> corners, std::uint64_t vertex_count,
                                 const FilePlace& place) {
   for (const std::int64_t index : corners) {
     if (index >= 0 && std::uint64_t(index) < vertex_count) continue;
@@ -82,34 +82,33 @@ void MeshCollector::add_polygon(std::span<const std::int64_t> corners, std::uint
   }
 }
 
-void MeshCollector::triangulate_waiting() {
+void MeshBuilder::triangulate_waiting() {
   std::size_t i = 0;
   while (i < waiting_.size()) {
     const std::span<const std::uint32_t> corners = std::span(waiting_).subspan(i + 1, waiting_[i]);
     // Convex polygons take none; a few hundred for each corner are enough for what people draw.
     tests_left_ += 200 * corners.size();
     if (!triangulate(corners, vertices_, tests_left_, triangles_)) {
-      throw bad_input(file_,
-                      fmt::format("a polygon of {} corners is too intricate to be cut into "
-                                  "triangles; triangulate the mesh in the program that made it",
-                                  corners.size()));
+      throw bad_input(file_, fmt::format("a polygon of {} corners is too complex to triangulate; "
+                                         "triangulate the mesh in the program that made it",
+                                         corners.size()));
     }
     i += 1 + corners.size();
   }
   waiting_.clear();
 }
 
-void MeshCollector::add_triangle_of_last_vertices() {
+void MeshBuilder::add_triangle_of_last_vertices() {
   const auto end = std::uint32_t(vertices_.size());
   triangles_.push_back({end - 3, end - 2, end - 1});
 }
 
-void MeshCollector::add_remark(std::string remark) {
+void MeshBuilder::add_remark(std::string remark) {
   remarks_.push_back(file_ + ": " + std::move(remark));
 }
 
 /// A face that uses a bad vertex is an error; those that no face uses go.
-void MeshCollector::remove_bad_vertices() {
+void MeshBuilder::remove_bad_vertices() {
   if (bad_vertices_.empty()) return;
   constexpr std::uint32_t kGood = 0, kBad = 1;
   std::vector<std::uint32_t> index(vertices_.size(), kGood);
@@ -132,12 +131,12 @@ void MeshCollector::remove_bad_vertices() {
   }
   const BadVertex& first = bad_vertices_.front();
   remarks_.push_back(fmt::format(
-      "{}: {} {} that no face uses {} no point, the first being {}; left out", first.place.text(),
+      "{}: {} {} that no face uses {} not finite, the first being {}; left out", first.place.text(),
       bad_vertices_.size(), bad_vertices_.size() == 1 ? "vertex" : "vertices",
       bad_vertices_.size() == 1 ? "is" : "are", to_text(first.p_file)));
 }
 
-TriangleMesh MeshCollector::finish() && {
+TriangleMesh MeshBuilder::finish() && {
   triangulate_waiting();
   remove_bad_vertices();
   if (small_faces_ > 0) {

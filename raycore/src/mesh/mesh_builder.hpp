@@ -10,25 +10,25 @@
 
 namespace vantage::raycore::detail {
 
-/// Where the readers of mesh files put what they find: it checks each vertex and index where the
+/// Builds a mesh from what the readers of mesh files find: checks each vertex and index while the
 /// place in the file is still known, turns units into metres and the file's up axis to z, and cuts
 /// polygons into triangles.
-class MeshCollector {
+class MeshBuilder {
  public:
-  MeshCollector(std::string file, const MeshFileFrame& frame)
+  MeshBuilder(std::string file, const MeshFileFrame& frame)
       : file_(std::move(file)), frame_(frame) {
     set_file_up(UpAxis::z);
   }
-  MeshCollector(std::string file, double unit_m)
-      : MeshCollector(std::move(file), MeshFileFrame{unit_m, {}}) {}
+  MeshBuilder(std::string file, double unit_m)
+      : MeshBuilder(std::move(file), MeshFileFrame{unit_m, {}}) {}
 
   const std::string& file() const { return file_; }
   std::size_t vertex_count() const { return vertices_.size(); }
   std::size_t triangle_count() const { return triangles_.size(); }
   void reserve(std::size_t vertices, std::size_t triangles);
 
-  /// What the file or its format says of its axes; the user's word goes before it. For the vertices
-  /// that follow.
+  /// The up axis that the file or its format states; the user's choice overrides it. For the
+  /// vertices that follow.
   void set_file_up(UpAxis up);
 
   /// Coordinates in the file's unit; they are scaled before they are rounded to float. One that is
@@ -36,7 +36,7 @@ class MeshCollector {
   /// @param place its `unit` is a string literal.
   void add_vertex(const Eigen::Vector3d& p_file, const FilePlace& place);
 
-  /// Fewer than three corners are no face: they are counted, and remarked in the end.
+  /// Fewer than three corners do not make a face: they are counted, and remarked in the end.
   /// @throws Error bad_input for an index outside 0 … `vertex_count` - 1; the file's vertices may
   /// follow its faces.
   void add_polygon(std::span<const std::int64_t> corners, std::uint64_t vertex_count,
@@ -45,15 +45,15 @@ class MeshCollector {
   /// The last three vertices as one triangle.
   void add_triangle_of_last_vertices();
 
-  /// Something odd that does no harm; without the file's name.
+  /// A remark on something odd but harmless; without the file's name.
   void add_remark(std::string remark);
 
   /// @throws Error bad_input if there is no triangle with an area, a face uses a vertex that is not
-  /// finite or too far out, or a polygon is too intricate.
+  /// finite or too far out, or a polygon is too complex.
   TriangleMesh finish() &&;
 
  private:
-  /// A vertex that is no point.
+  /// A vertex with a coordinate that is not finite or too large.
   struct BadVertex {
     std::uint32_t index;
     Eigen::Vector3d p_file;

@@ -24,7 +24,7 @@ std::string lower_cased_ending(const std::filesystem::path& path) {
   return ending;
 }
 
-/// What people ask for that has no safe reader, by what it is called.
+/// Formats that people ask for and that have no safe reader, by their names.
 [[noreturn]] void refuse_format(const std::filesystem::path& path, const std::string& ending) {
   constexpr std::array<std::string_view, 6> kGeometry = {".step", ".stp",  ".iges",
                                                          ".igs",  ".brep", ".sldprt"};
@@ -35,8 +35,8 @@ std::string lower_cased_ending(const std::filesystem::path& path) {
           "has the ending \"{}\"; expected a mesh: .stl, .ply, .obj, .off, .glb, .gltf (2.0), "
           ".dae, .fbx, .3ds or .3mf; {}",
           ending,
-          geometry ? "it is no mesh but CAD geometry: export it as STL from the CAD program"
-                   : "convert it to one of them, for example with Blender or MeshLab"));
+          geometry ? "this is CAD geometry, not a mesh: export it as STL from the CAD program"
+                   : "convert it to one of these, for example with Blender or MeshLab"));
 }
 
 TriangleMesh read(const std::filesystem::path& path, const MeshFileFrame& frame) {
@@ -46,7 +46,7 @@ TriangleMesh read(const std::filesystem::path& path, const MeshFileFrame& frame)
       ending == ".dae" || ending == ".fbx" || ending == ".3ds" || ending == ".3mf";
   const std::vector<std::uint8_t> bytes = read_file(path);
   if (bytes.empty()) throw bad_input(path.string(), "is empty; expected a mesh");
-  MeshCollector mesh(path.string(), frame);
+  MeshBuilder mesh(path.string(), frame);
   if (ending == ".stl") {
     read_stl(bytes, mesh);
   } else if (ending == ".ply") {

@@ -9,7 +9,7 @@
 namespace vantage::raycore::detail {
 namespace {
 
-/// Texture and normal indices are not used, but a corner that is no corner is found.
+/// Texture and normal indices are not used, but an invalid corner is found.
 bool is_corner_tail(std::string_view tail) {
   if (tail.empty()) return true;
   if (tail.front() != '/') return false;
@@ -38,7 +38,7 @@ std::int64_t vertex_index(std::string_view corner, std::size_t vertex_count,
   return *index > 0 ? *index - 1 : count + *index;
 }
 
-void read_face(TextScanner& text, MeshCollector& mesh, std::vector<std::int64_t>& corners) {
+void read_face(TextScanner& text, MeshBuilder& mesh, std::vector<std::int64_t>& corners) {
   corners.clear();
   for (std::string_view word = text.word(); !word.empty() && word.front() != '#';
        word = text.word()) {
@@ -49,7 +49,7 @@ void read_face(TextScanner& text, MeshCollector& mesh, std::vector<std::int64_t>
 
 }  // namespace
 
-void read_obj(std::span<const std::uint8_t> bytes, MeshCollector& mesh) {
+void read_obj(std::span<const std::uint8_t> bytes, MeshBuilder& mesh) {
   TextScanner text(as_text(bytes), mesh.file());
   std::vector<std::int64_t> corners;
   do {

@@ -41,8 +41,8 @@ std::string_view read_keyword(TextScanner& text) {
   const std::string_view prefix = word.substr(0, std::min(off, word.size()));
   if (off == std::string_view::npos || prefix.find_first_not_of("STCN") != std::string_view::npos) {
     text.fail(
-        fmt::format("the file begins with {}; expected OFF, COFF, NOFF, STOFF or several of "
-                    "their prefixes (4OFF and nOFF are not of three dimensions)",
+        fmt::format("the file begins with {}; expected OFF, COFF, NOFF, STOFF or several of their "
+                    "prefixes (4OFF and nOFF are not three-dimensional)",
                     in_quotes(word)));
   }
   TextScanner ahead = text;
@@ -73,7 +73,7 @@ void go_to_element(TextScanner& text, const char* what, std::uint64_t number, st
   }
 }
 
-void read_off_face(TextScanner& text, std::uint64_t vertex_count, MeshCollector& mesh,
+void read_off_face(TextScanner& text, std::uint64_t vertex_count, MeshBuilder& mesh,
                    std::vector<std::int64_t>& corners) {
   const std::uint64_t count = to_count(text.word(), "corners", text);
   corners.clear();
@@ -91,7 +91,7 @@ void read_off_face(TextScanner& text, std::uint64_t vertex_count, MeshCollector&
 
 }  // namespace
 
-void read_off(std::span<const std::uint8_t> bytes, MeshCollector& mesh) {
+void read_off(std::span<const std::uint8_t> bytes, MeshBuilder& mesh) {
   TextScanner text(as_text(bytes), mesh.file());
   const std::string_view glued = read_keyword(text);
   const std::uint64_t vertices = to_count(glued.empty() ? off_word(text) : glued, "vertices", text);

@@ -138,7 +138,7 @@ double BinaryPlyBody::value(PlyType type) {
     case PlyType::float64:
       return take<double>();
   }
-  place_.fail("a property of no known type");
+  place_.fail("a property of a known type");
 }
 
 bool BinaryPlyBody::more_follows() {
@@ -147,7 +147,7 @@ bool BinaryPlyBody::more_follows() {
 
 namespace {
 
-/// Marks a property of a vertex that is no coordinate.
+/// Marks a property of a vertex that is not a coordinate.
 constexpr int kNotUsed = -1;
 
 /// For each property of a vertex: 0, 1, 2 for x, y, z, or kNotUsed.
@@ -196,7 +196,7 @@ void skip(PlyBody& body, const PlyProperty& property) {
   for (std::uint64_t i = 0; i < count; ++i) body.value(property.type);
 }
 
-void read_vertices(PlyBody& body, const PlyElement& element, MeshCollector& mesh) {
+void read_vertices(PlyBody& body, const PlyElement& element, MeshBuilder& mesh) {
   const std::vector<int> axes = vertex_axes(element, mesh.file());
   mesh.reserve(element.count, 0);
   for (std::uint64_t i = 0; i < element.count; ++i) {
@@ -210,7 +210,7 @@ void read_vertices(PlyBody& body, const PlyElement& element, MeshCollector& mesh
       }
     }
     FilePlace place = body.place();
-    if (place.unit != "line") place.unit = "vertex";  // the header goes, the collector stays
+    if (place.unit != "line") place.unit = "vertex";  // the header is gone when the builder reports
     mesh.add_vertex(p_file, place);
     body.end_element();
   }
@@ -224,7 +224,7 @@ std::int64_t read_index(PlyBody& body, PlyType type) {
 }
 
 void read_faces(PlyBody& body, const PlyElement& element, std::uint64_t vertex_count,
-                MeshCollector& mesh) {
+                MeshBuilder& mesh) {
   const std::size_t used = corner_property(element, mesh.file());
   std::vector<std::int64_t> corners;
   for (std::uint64_t i = 0; i < element.count; ++i) {
@@ -246,7 +246,7 @@ void read_faces(PlyBody& body, const PlyElement& element, std::uint64_t vertex_c
 /// Long strips, one after the other in each list, parted by -1. Their triangles change direction
 /// one by one.
 void read_strips(PlyBody& body, const PlyElement& element, std::uint64_t vertex_count,
-                 MeshCollector& mesh) {
+                 MeshBuilder& mesh) {
   const std::size_t used = corner_property(element, mesh.file());
   for (std::uint64_t i = 0; i < element.count; ++i) {
     body.begin_element(element, i);
@@ -270,7 +270,7 @@ void read_strips(PlyBody& body, const PlyElement& element, std::uint64_t vertex_
   }
 }
 
-void read_elements(PlyBody& body, const PlyHeader& header, MeshCollector& mesh) {
+void read_elements(PlyBody& body, const PlyHeader& header, MeshBuilder& mesh) {
   const PlyElement* vertices = header.find("vertex");
   if (vertices == nullptr) throw bad_input(mesh.file(), "the header has no element \"vertex\"");
   for (const PlyElement& element : header.elements) {
@@ -290,13 +290,14 @@ void read_elements(PlyBody& body, const PlyHeader& header, MeshCollector& mesh) 
   }
   if (body.more_follows()) {
     mesh.add_remark(
-        "more follows the last element that the header claims; left out (is a count wrong?)");
+        "there is more after the last element that the header declares; left out (is a count "
+        "wrong?)");
   }
 }
 
 }  // namespace
 
-void read_ply(std::span<const std::uint8_t> bytes, MeshCollector& mesh) {
+void read_ply(std::span<const std::uint8_t> bytes, MeshBuilder& mesh) {
   TextScanner text(as_text(bytes), mesh.file());
   const PlyHeader header = read_ply_header(text);
   const std::span<const std::uint8_t> data = bytes.subspan(text.position());

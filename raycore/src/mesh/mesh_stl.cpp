@@ -40,7 +40,7 @@ bool is_binary(std::span<const std::uint8_t> bytes) {
 
 /// The number of triangles. Bytes that follow them are none of a mesh's: padding, or what a program
 /// leaves there for itself.
-std::size_t checked_count(std::span<const std::uint8_t> bytes, MeshCollector& mesh) {
+std::size_t checked_count(std::span<const std::uint8_t> bytes, MeshBuilder& mesh) {
   if (bytes.size() < kHeaderBytes) {
     throw bad_input(mesh.file(),
                     fmt::format("has {} bytes and does not begin with \"solid\"; expected an "
@@ -52,8 +52,8 @@ std::size_t checked_count(std::span<const std::uint8_t> bytes, MeshCollector& me
   if (stated > bytes.size() || (count == 0 && bytes.size() > kHeaderBytes)) {
     throw bad_input(
         mesh.file() + ", byte 80",
-        fmt::format("states {} triangles, which take {} bytes; the file has {} and is "
-                    "{}, or no STL file",
+        fmt::format("states {} triangles, which take {} bytes; the file has {} and is {}, or is "
+                    "not an STL file",
                     count, stated, bytes.size(), stated > bytes.size() ? "truncated" : "too long"));
   }
   if (stated < bytes.size()) {
@@ -65,7 +65,7 @@ std::size_t checked_count(std::span<const std::uint8_t> bytes, MeshCollector& me
   return std::size_t(count);
 }
 
-void read_binary(std::span<const std::uint8_t> bytes, MeshCollector& mesh) {
+void read_binary(std::span<const std::uint8_t> bytes, MeshBuilder& mesh) {
   const std::size_t count = checked_count(bytes, mesh);
   mesh.reserve(3 * count, count);
   for (std::size_t i = 0; i < count; ++i) {
@@ -88,7 +88,7 @@ void expect(TextScanner& text, std::string_view keyword) {
 }
 
 /// What follows "facet".
-void read_facet(TextScanner& text, MeshCollector& mesh) {
+void read_facet(TextScanner& text, MeshBuilder& mesh) {
   expect(text, "normal");
   // Normals are left unread: some programs write NaN there.
   for (int i = 0; i < 3; ++i) text.word_anywhere();
@@ -107,7 +107,7 @@ void read_facet(TextScanner& text, MeshCollector& mesh) {
 }
 
 /// What follows "solid", which has a name to the end of its line.
-void read_solid(TextScanner& text, MeshCollector& mesh) {
+void read_solid(TextScanner& text, MeshBuilder& mesh) {
   text.next_line();
   while (true) {
     const std::string_view word = text.word_anywhere();
@@ -126,7 +126,7 @@ void read_solid(TextScanner& text, MeshCollector& mesh) {
 
 }  // namespace
 
-void read_stl(std::span<const std::uint8_t> bytes, MeshCollector& mesh) {
+void read_stl(std::span<const std::uint8_t> bytes, MeshBuilder& mesh) {
   if (is_binary(bytes)) return read_binary(bytes, mesh);
   TextScanner text(as_text(bytes), mesh.file());
   while (equal_ignoring_case(text.word_anywhere(), "solid")) {

@@ -67,7 +67,7 @@ PlyElement read_element(TextScanner& text, const PlyHeader& header) {
                           in_quotes(element.name), in_quotes(word)));
   }
   if (header.find(element.name) != nullptr) {
-    text.fail(fmt::format("the element {} is there twice", in_quotes(element.name)));
+    text.fail(fmt::format("the element {} is declared twice", in_quotes(element.name)));
   }
   element.count = std::uint64_t(*count);
   return element;
@@ -94,7 +94,7 @@ void add_property(TextScanner& text, PlyHeader& header) {
   std::vector<PlyProperty>& properties = header.elements.back().properties;
   PlyProperty property = read_property(text);
   if (std::ranges::find(properties, property.name, &PlyProperty::name) != properties.end()) {
-    text.fail(fmt::format("the property {} is there twice in the element {}",
+    text.fail(fmt::format("the property {} is declared twice in the element {}",
                           in_quotes(property.name), in_quotes(header.elements.back().name)));
   }
   properties.push_back(std::move(property));

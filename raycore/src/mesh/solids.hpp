@@ -18,8 +18,8 @@ void check_size(const Eigen::Vector3d& size_m);
 using Ring = std::vector<Eigen::Vector3d>;
 
 /// The closed surface that runs from the first ring over all the others to the last. Rings have the
-/// same number of corners, or a single one: a tip. A first or last ring that is no tip is closed by
-/// a fan around its first corner, which has to see all the others.
+/// same number of corners, or a single one: a tip. A first or last ring that is not a tip is closed
+/// by a fan around its first corner, which has to see all the others.
 /// @throws Error bad_input, `where` as the place, if floats cannot tell the corners apart.
 TriangleMesh ring_stack(const std::vector<Ring>& rings, const std::string& where);
 

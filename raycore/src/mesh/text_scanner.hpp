@@ -30,7 +30,7 @@ class TextScanner {
   std::string_view word_anywhere();
 
   /// The next word of this line as a number.
-  /// @throws Error bad_input at this line if it is none; NaN and infinity are let through.
+  /// @throws Error bad_input at this line if it is not a number; NaN and infinity are let through.
   double number(std::string_view what);
 
   /// Goes to the start of the next line. False at the text's end.

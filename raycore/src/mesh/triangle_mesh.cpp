@@ -101,8 +101,7 @@ TriangleMesh TriangleMesh::transformed(const Pose& T_target_mesh) const {
 
 TriangleMesh TriangleMesh::scaled(double factor) const {
   if (!std::isfinite(factor) || factor <= 0) {
-    throw bad_input("factor",
-                    fmt::format("is {}; a mesh can be scaled by a finite number above 0", factor));
+    throw bad_input("factor", fmt::format("is {}; expected a finite scale factor above 0", factor));
   }
   std::vector<Eigen::Vector3f> resized;
   resized.reserve(vertices_.size());

@@ -36,8 +36,8 @@ struct PixelSurface {
 /// Room for a tile; a task keeps one for all that it draws. Fields are of its pixels, row by row.
 struct TileScratch {
   std::vector<PixelSurface> surface;
-  std::vector<std::uint32_t> label;   ///< plain pixels of one surface that hang together share one
-  std::vector<std::uint32_t> parent;  ///< of labels, until they are settled
+  std::vector<std::uint32_t> label;         ///< connected plain pixels of one surface share one
+  std::vector<std::uint32_t> parent;        ///< of labels, until they are settled
   std::vector<int> sky_hits, sun_hits;      ///< of a plain pixel's rays, those that got there
   std::vector<float> sky_share, sun_share;  ///< the same as parts of 1
   std::vector<Eigen::Vector3f> light;       ///< of a mixed pixel, linear, summed up

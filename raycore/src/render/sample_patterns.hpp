@@ -19,7 +19,7 @@ struct LightDirections {
 /// uneven is even in the mean of its neighbours (interleaved sampling: Keller, Heidrich, 2001).
 ///
 /// All are points of the (0, 2)-sequence of Sobol's first two dimensions; within a pattern the
-/// order for sky and sun is shuffled, so that neither hangs together with the position.
+/// order for sky and sun is shuffled, so that neither is correlated with the position.
 class SamplePatterns {
  public:
   static constexpr int kSide = 4;

@@ -108,18 +108,19 @@ int side(const Document& document, const std::optional<std::string>& pointer,
          const nlohmann::json* value, const char* key, int of_images) {
   if (!value) {
     if (of_images > 0) return of_images;
-    throw bad_input(document.name + ": " + key,
-                    "it is missing, and no image says it; add the images' size in pixels");
+    throw bad_input(
+        document.name + ": " + key,
+        "it is missing, and there is no image to take it from; add the images' size in pixels");
   }
   const std::string place = document.place(*pointer);
   const double pixels = value->is_number() ? value->get<double>() : -1;
   if (!(pixels >= 0) || pixels > 1e6 || pixels != std::floor(pixels)) {
     throw bad_input(place,
-                    fmt::format("found {}; it is no whole number; expected pixels", shown(*value)));
+                    fmt::format("found {}; expected a whole number of pixels", shown(*value)));
   }
   if (of_images > 0 && int(pixels) != of_images) {
-    throw bad_input(place, fmt::format("it is {}, but the images have {} pixels; expected the "
-                                       "calibration of this camera at this resolution",
+    throw bad_input(place, fmt::format("it is {}, but the images have {} pixels; expected this "
+                                       "camera's calibration at this resolution",
                                        int(pixels), of_images));
   }
   return int(pixels);
@@ -216,7 +217,7 @@ Distortion distortion_of(const Document& document, const CameraEntry& entry) {
     const bool zero = std::ranges::all_of(found.numbers, [](double c) { return c == 0; });
     if (!zero) {
       throw bad_input(document.place(*entry.model),
-                      "this model of RealSense's is none of OpenCV's; expected plumb_bob, "
+                      "this RealSense model is not one of OpenCV's; expected plumb_bob, "
                       "rational_polynomial or equidistant: calibrate the camera with OpenCV");
     }
   }
@@ -229,8 +230,8 @@ void check_binning(const Document& document) {
     const auto found = document.root.find(key);
     if (found == document.root.end() || !found->is_number() || found->get<double>() <= 1) continue;
     throw bad_input(document.place(child("", key)),
-                    fmt::format("found {}: images are smaller than what was calibrated; expected "
-                                "0 or 1: give the calibration of the images as they are",
+                    fmt::format("found {}: the images are smaller than the calibrated ones; "
+                                "expected 0 or 1: give a calibration of the images as recorded",
                                 shown(*found)));
   }
 }

@@ -25,8 +25,9 @@ void read_rows(const json& rows, const std::string& expected, MatrixValue& matri
   matrix.rows = rows.size(), matrix.columns = rows[0].size();
   for (const json& row : rows) {
     if (!row.is_array() || row.size() != matrix.columns) {
-      throw bad_input(matrix.place, fmt::format("found {}, rows of different length; expected {}",
-                                                shown(rows), expected));
+      throw bad_input(
+          matrix.place,
+          fmt::format("found {}, whose rows differ in length; expected {}", shown(rows), expected));
     }
     append_numbers(row, expected, matrix);
   }
@@ -38,9 +39,10 @@ void read_opencv_matrix(const json& value, const std::string& expected, MatrixVa
     const bool is_count =
         found != value.end() && found->is_number_integer() && found->get<std::int64_t>() >= 0;
     if (!is_count) {
-      throw bad_input(matrix.place, fmt::format("it is no OpenCV matrix, with rows, cols and data; "
-                                                "expected {}",
-                                                expected));
+      throw bad_input(
+          matrix.place,
+          fmt::format("it is not an OpenCV matrix, with rows, cols and data; expected {}",
+                      expected));
     }
     return std::size_t(found->get<std::int64_t>());
   };
@@ -48,13 +50,13 @@ void read_opencv_matrix(const json& value, const std::string& expected, MatrixVa
   const auto data = value.find("data");
   if (data == value.end() || !(data->is_array() || data->is_number())) {
     throw bad_input(matrix.place,
-                    fmt::format("it is no matrix: its data are missing; expected {}", expected));
+                    fmt::format("it is not a matrix: its data are missing; expected {}", expected));
   }
   append_numbers(data->is_array() ? *data : json::array({*data}), expected, matrix);
   if (matrix.rows > 1000 || matrix.columns > 1000) throw matrix.error(expected);
   if (matrix.numbers.size() == matrix.rows * matrix.columns) return;
   throw bad_input(matrix.place,
-                  fmt::format("it is no matrix: {} numbers for {} × {}; expected {}",
+                  fmt::format("it is not a matrix: {} numbers for {} × {}; expected {}",
                               matrix.numbers.size(), matrix.rows, matrix.columns, expected));
 }
 
@@ -77,7 +79,7 @@ MatrixValue matrix_at(const Document& document, const std::string& pointer,
     append_numbers(value, expected, matrix);
     matrix.rows = 1, matrix.columns = matrix.numbers.size(), matrix.is_flat = true;
   } else {
-    throw bad_input(matrix.place, fmt::format("it is no OpenCV matrix: found {}; expected {}",
+    throw bad_input(matrix.place, fmt::format("it is not an OpenCV matrix: found {}; expected {}",
                                               shown(value), expected));
   }
   return matrix;

@@ -57,7 +57,7 @@ class XmlConverter {
       if (std::string_view(element.name()) == "_") {
         list.push_back(std::move(value));
       } else if (!members.emplace(element.name(), std::move(value)).second) {
-        throw bad_input(name_ + ": " + element.name(), "is there twice; remove one of them");
+        throw bad_input(name_ + ": " + element.name(), "is given twice; remove one of them");
       }
     }
     if (!members.empty()) return members;
@@ -77,7 +77,7 @@ Document parse_opencv_xml(std::string_view text, const std::string& name) {
     const std::string_view before =
         text.substr(0, std::size_t(std::max<std::ptrdiff_t>(result.offset, 0)));
     throw bad_input(fmt::format("{}:{}", name, 1 + std::ranges::count(before, '\n')),
-                    fmt::format("no valid XML, or truncated: {}", result.description()));
+                    fmt::format("invalid or truncated XML: {}", result.description()));
   }
   const pugi::xml_node storage = document.child("opencv_storage");
   if (!storage) {

@@ -45,7 +45,8 @@ inline int id_of(const std::string& key, const char* what, const std::string& wh
   int id = 0;
   const auto [end, error] = std::from_chars(key.data(), key.data() + key.size(), id);
   if (error != std::errc{} || end != key.data() + key.size() || id < 0) {
-    throw bad_input(where, fmt::format("no {} id; expected a whole number such as \"20\"", what));
+    throw bad_input(where,
+                    fmt::format("not a valid {} id; expected a whole number such as \"20\"", what));
   }
   return id;
 }

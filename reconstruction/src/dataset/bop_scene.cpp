@@ -62,7 +62,7 @@ void add_entries(const BopSensor& sensor, const json& root, Entries& entries) {
         entries.try_emplace(sensor.first_id + id, SensorEntry{sensor, id, {file, key, value}});
     if (!is_new) {
       throw bad_input(fmt::format("{}: \"{}\"", file.string(), key),
-                      fmt::format("image {} is there twice; remove one of them", id));
+                      fmt::format("image {} is given twice; remove one of them", id));
     }
   }
 }
@@ -73,9 +73,8 @@ void select(Entries& entries, std::span<const int> only_ids, const std::string& 
   for (const int id : only_ids) {
     if (entries.contains(id)) continue;
     throw bad_input(
-        where, fmt::format("image {} was asked for, but is not here; there are {} images, "
-                           "with ids from {} to {}",
-                           id, entries.size(), entries.begin()->first, entries.rbegin()->first));
+        where, fmt::format("there is no image {}; there are {} images, with ids from {} to {}", id,
+                           entries.size(), entries.begin()->first, entries.rbegin()->first));
   }
   std::erase_if(entries, [&](const auto& entry) {
     return std::find(only_ids.begin(), only_ids.end(), entry.first) == only_ids.end();
@@ -99,10 +98,12 @@ void refuse_other_size(const Intrinsics& k, const std::string& where) {
   if (k.cx <= k.width || k.cy <= k.height) return;
   const double across = k.width / (2 * k.cx + 1), down = k.height / (2 * k.cy + 1);
   if (std::abs(across - down) > kAlike * down) return;
-  throw bad_input(where, fmt::format("the principal point ({}, {}) lies outside the image of {} x "
-                                     "{} pixels, in the middle of a larger one: depth and "
-                                     "intrinsics of different size; scale cam_K by {:.4g}",
-                                     k.cx, k.cy, k.width, k.height, down));
+  throw bad_input(
+      where,
+      fmt::format(
+          "the principal point ({}, {}) lies outside the image of {} x {} pixels, in the middle of "
+          "a larger one: depth images and intrinsics differ in size; scale cam_K by {:.4g}",
+          k.cx, k.cy, k.width, k.height, down));
 }
 
 Intrinsics read_intrinsics(const Entry& entry, ImageSize size) {
@@ -247,20 +248,20 @@ void check_pixels(const BopScene& scene) {
     if (image.depth != nullptr) pixels += image.depth->metres().size();
   }
   if (pixels <= limits::kMaxScenePixels) return;
-  throw bad_input(scene.folder.string(),
-                  fmt::format("its first {} depth images have more than {} pixels together; choose "
-                              "some with --images",
-                              scene.images.size(), limits::kMaxScenePixels));
+  throw bad_input(
+      scene.folder.string(),
+      fmt::format(
+          "its first {} depth images together have more than {} pixels; choose fewer with --images",
+          scene.images.size(), limits::kMaxScenePixels));
 }
 
 }  // namespace
 
 PinholeCamera BopImage::camera() const {
   if (T_world_cam) return PinholeCamera(intrinsics, *T_world_cam, range, place);
-  throw bad_input(
-      place + ": cam_R_w2c",
-      "missing, so that nobody knows where the camera is; write its pose into cam_R_w2c "
-      "and cam_t_w2c, or give the workcell a board of markers to locate it by");
+  throw bad_input(place + ": cam_R_w2c",
+                  "missing, so the camera's pose is unknown; write it into cam_R_w2c and "
+                  "cam_t_w2c, or give the workcell a board of markers to locate the camera by");
 }
 
 BopScene load_bop_scene(const fs::path& folder, const DepthRange& range,

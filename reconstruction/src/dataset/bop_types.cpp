@@ -82,8 +82,8 @@ class ModelFolder {
   std::vector<ObjectType> read() const {
     if (!fs::is_regular_file(info_)) {
       throw bad_input(info_.string(),
-                      "missing; a folder that is a knowledge base has BOP's models "
-                      "in it: models_info.json and obj_000001.ply, …");
+                      "missing; a folder used as a knowledge base contains BOP's models: "
+                      "models_info.json and obj_000001.ply, …");
     }
     const json root = parse_json_file(info_);
     files_.push_back(info_);
@@ -107,14 +107,13 @@ class ModelFolder {
   void take(std::map<int, std::string>& keys, const std::string& key) const {
     const int id = id_of(key, "model", place(key));
     if (keys.try_emplace(id, key).second) return;
-    throw bad_input(place(key), fmt::format("model {} is there twice; remove one of them", id));
+    throw bad_input(place(key), fmt::format("model {} is given twice; remove one of them", id));
   }
 
   ObjectType read_type(int id, const std::string& key, const json& info) const {
     const std::string where = place(key);
     if (!info.is_object()) {
-      throw bad_input(where, fmt::format("found {}; expected an object with what is known of the "
-                                         "model",
+      throw bad_input(where, fmt::format("found {}; expected an object with the model's properties",
                                          excerpt(info)));
     }
     ObjectType type{.name = fmt::format("obj_{:06}", id)};

@@ -11,8 +11,8 @@ namespace vantage::reconstruction::detail {
 /// their ids. Millimetres become metres. A type is called obj_000001 and carries a feature {"pose",
 /// "obj_000001"} at its origin, as pose estimators that were trained on such models report them.
 /// @param files  gets every file that is read.
-/// @throws Error bad_input with the file and the key for a file that is missing or damaged, an id
-/// that is none, and symmetries that are none.
+/// @throws Error bad_input with the file and the key for a file that is missing or damaged, an
+/// invalid id, and invalid symmetries.
 std::vector<ObjectType> read_bop_types(const std::filesystem::path& folder,
                                        std::vector<std::filesystem::path>& files);
 

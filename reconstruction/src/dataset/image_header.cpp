@@ -105,9 +105,9 @@ Header header_of(Bytes bytes, const std::filesystem::path& path) {
   for (const auto read : {tiff_header, bmp_header, webp_header}) {
     if (const auto header = read(bytes)) return *header;
   }
-  throw bad_input(path.string(),
-                  "none of PNG, JPEG, TIFF, BMP and WebP; save the colour image as "
-                  "one of them");
+  throw bad_input(
+      path.string(),
+      "not a PNG, JPEG, TIFF, BMP or WebP image; save the colour image as one of these");
 }
 
 }  // namespace
@@ -130,9 +130,8 @@ ColorHeader check_color_header(Bytes bytes, const std::filesystem::path& path) {
 std::string orientation_warning(const ColorHeader& header, const std::filesystem::path& path) {
   if (header.exif_orientation == 1) return {};
   return fmt::format(
-      "{}: its EXIF data ask to turn the picture (orientation {}); it is taken as it "
-      "is stored: check that the intrinsics are for {} x {} pixels, as the camera "
-      "recorded them",
+      "{}: its EXIF data ask for a rotated picture (orientation {}); it is used as stored: check "
+      "that the intrinsics are for {} x {} pixels, as the camera recorded them",
       path.string(), header.exif_orientation, header.size.width, header.size.height);
 }
 

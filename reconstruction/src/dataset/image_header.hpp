@@ -26,7 +26,7 @@ struct ColorHeader {
 ColorHeader check_color_header(std::span<const std::uint8_t> bytes,
                                const std::filesystem::path& path);
 
-/// For people, where EXIF data ask to turn the image; else empty.
+/// A warning where EXIF data ask for a rotated image; else empty.
 std::string orientation_warning(const ColorHeader& header, const std::filesystem::path& path);
 
 }  // namespace vantage::reconstruction::detail

@@ -42,14 +42,14 @@ void refuse(const Value& line, std::initializer_list<const char*> keys, const ch
 FeatureKey read_key(const Value& line) {
   const Value type = line["type"], value = line["value"];
   if (type.as<std::string>() != "aruco") {
-    refuse(line, {"dictionary", "corners_px"}, "a feature that is no \"aruco\"");
+    refuse(line, {"dictionary", "corners_px"}, "a feature other than \"aruco\"");
     if (value.is_string()) return {type.as<std::string>(), value.as<std::string>()};
     throw value.error(
         fmt::format("found {}; expected the feature's name as a string", value.as<int>()));
   }
   if (!line.has("corners_px")) throw line.error("a marker has \"corners_px\"; expected this key");
   if (!line.has("dictionary")) {
-    throw line.error("a marker is one of a dictionary; expected the key \"dictionary\"");
+    throw line.error("a marker belongs to a dictionary; expected the key \"dictionary\"");
   }
   if (value.is_string()) {
     throw value.error(fmt::format("found \"{}\"; expected a marker's id, a whole number",

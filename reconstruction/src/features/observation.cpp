@@ -24,11 +24,11 @@ std::string fault_of_corners(const std::vector<Eigen::Vector2d>& corners) {
     right += turn(corners[i], corners[(i + 1) % 4], corners[(i + 2) % 4]) > 0 ? 1 : 0;
   }
   // Four left turns: convex as well, but a marker has no back.
-  if (right == 0) return "the corners go around the wrong way, as if seen from behind";
-  if (right != 4) return "the corners are no convex quadrangle";
+  if (right == 0) return "the corners are in the wrong order, as if seen from behind";
+  if (right != 4) return "the corners do not form a convex quadrilateral";
   const double area =
       (turn(corners[0], corners[1], corners[2]) + turn(corners[2], corners[3], corners[0])) / 2;
-  if (area <= 1) return fmt::format("the marker is only {:.2g} px² large", area);
+  if (area <= 1) return fmt::format("the marker covers only {:.2g} px²", area);
   return {};
 }
 

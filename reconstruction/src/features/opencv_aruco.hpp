@@ -21,8 +21,8 @@ namespace vantage::reconstruction::detail {
 /// OpenCV's names without the prefix `DICT_`.
 std::vector<std::string> aruco_dictionary_names();
 
-/// "4X4_50" for "DICT_4X4_50", "APRILTAG_36h11" for "tag36h11", in upper or lower case. A name that
-/// is none stays as it is.
+/// "4X4_50" for "DICT_4X4_50", "APRILTAG_36h11" for "tag36h11", in upper or lower case. Other names
+/// are returned unchanged.
 std::string canonical_dictionary(std::string_view name);
 
 /// Nothing for another name.

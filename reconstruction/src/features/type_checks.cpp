@@ -101,9 +101,9 @@ void check_feature(const ObjectType& type, std::size_t index) {
   if (const auto* marker = std::get_if<Marker>(&feature.geometry)) check_fits(type, *marker, place);
   for (std::size_t other = 0; other < index; ++other) {
     if (!same(type.features[other], feature)) continue;
-    throw bad_input(place, fmt::format("{} {} is features[{}] once more, in the same place; remove "
-                                       "one of them",
-                                       feature.key.type, feature.key.value, other));
+    throw bad_input(place,
+                    fmt::format("{} {} repeats features[{}] in the same place; remove one of them",
+                                feature.key.type, feature.key.value, other));
   }
 }
 

@@ -86,7 +86,7 @@ class ViewReader {
     if (!fault.empty()) return fault;
     const auto& features = knowledge_.with_feature(observation.key);
     if (features.empty()) {
-      return name_of(observation.key) + " is on no type of the knowledge base";
+      return name_of(observation.key) + " is not on any type of the knowledge base";
     }
     for (const TypeFeature& feature : features) {
       if (of_its_kind(observation, feature.type->features[feature.index])) {
@@ -94,7 +94,7 @@ class ViewReader {
       }
     }
     if (measurement.features.empty()) {
-      return fmt::format("{} is known, but is no feature of this kind or with as many points",
+      return fmt::format("{} is known, but not as a feature of this kind with this many points",
                          name_of(observation.key));
     }
     for (const std::size_t earlier : by_key_[observation.key]) {

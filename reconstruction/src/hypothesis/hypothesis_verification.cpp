@@ -92,8 +92,8 @@ void reject_misidentified(std::vector<Candidate>& candidates, const InlierThresh
                                      return marker != nullptr;
                                    });
       if (!all) continue;
-      doubtful.rejected = fmt::format("lies where a {} has {}: read wrongly", object.type()->name,
-                                      name_of(marker->key));
+      doubtful.rejected =
+          fmt::format("lies where a {} has {}: misread", object.type()->name, name_of(marker->key));
     }
   }
 }
@@ -209,7 +209,7 @@ void verify_hypotheses(std::vector<Candidate>& candidates, std::span<const Camer
                       options.min_evidence);
     if (candidate.there < 0.5) {
       candidate.rejected = "other markers of a " + candidate.best().type()->name +
-                           " there should be seen, and are not: its id is more likely read wrongly";
+                           " there should be seen, but are not: its id is more likely misread";
     }
   }
 }

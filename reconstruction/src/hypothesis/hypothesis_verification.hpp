@@ -28,7 +28,7 @@ bool goes_before(double log, const PoseHypothesis& voted, double other_log,
                  const PoseHypothesis& other);
 
 /// Leaves out objects whose measurements all lie where an object with more of them (and at least
-/// two) shows another of its markers, which that view does not have: their ids were read wrongly.
+/// two) shows another of its markers, which that view does not have: their ids were misread.
 void reject_misidentified(std::vector<Candidate>& candidates, const InlierThresholds& thresholds);
 
 /// Weighs the ways to explain each object, and whether it is there at all.

@@ -7,8 +7,8 @@
 #include "hypothesis/collect_measurements.hpp"
 #include "vantage/raycore/pose.hpp"
 
-// Private: what single observations say of an object's pose, as 6×6 sums that are cheap to add up
-// and to ask "what if": hundreds of hypotheses are weighed by them before one is fitted for good.
+// Private: what single observations say about an object's pose, as 6×6 sums that are cheap to add
+// up and to ask "what if": hundreds of hypotheses are weighed by them before one is fitted in full.
 namespace vantage::reconstruction::detail {
 
 using Vector6d = Eigen::Matrix<double, 6, 1>;

@@ -18,7 +18,7 @@ RawDepth decode_depth_tiff(std::span<const std::uint8_t> bytes, const std::strin
 RawDepth decode_depth_exr(std::span<const std::uint8_t> bytes, const std::string& where);
 RawDepth decode_depth_npy(std::span<const std::uint8_t> bytes, const std::string& where);
 
-/// @throws Error bad_input for a size that is none, above 16384 along a side, or more than so many
+/// @throws Error bad_input for an invalid size, above 16384 along a side, or more than so many
 /// bytes can hold, however well they are packed.
 void check_depth_size(std::int64_t width, std::int64_t height, std::size_t bytes,
                       const std::string& where);

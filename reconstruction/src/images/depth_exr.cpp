@@ -30,7 +30,7 @@ class ExrBytes final : public Imf::IStream {
   }
   std::uint64_t tellg() override { return at_; }
   void seekg(std::uint64_t to) override {
-    if (to > bytes_.size()) throw std::runtime_error("it points behind its end");
+    if (to > bytes_.size()) throw std::runtime_error("it points past its end");
     at_ = to;
   }
 

@@ -35,7 +35,7 @@ Image<Result, 1> image_of(const cv::Mat& pixels, const Convert& convert) {
 
 RawDepth decode_depth_tiff(std::span<const std::uint8_t> bytes, const std::string& where) {
   const auto header = tiff_header(bytes);
-  if (!header) throw bad_input(where, "is no TIFF image, or a damaged one");
+  if (!header) throw bad_input(where, "is not a TIFF image, or is damaged");
   check_depth_size(header->width, header->height, bytes.size(), where);
   const bool is_counts = header->bits == 16 && !header->is_float;
   if (!is_counts && header->bits != 32) {

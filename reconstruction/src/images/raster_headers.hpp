@@ -19,13 +19,13 @@ struct RasterHeader {
 };
 
 /// Tags of the first image of a TIFF file, or of EXIF data, which have the same form.
-/// @returns nothing for what is no such block, or a damaged one.
+/// @returns nothing if it is not such a block, or is damaged.
 std::optional<RasterHeader> tiff_header(std::span<const std::uint8_t> bytes);
 
-/// @returns nothing for what is no bitmap of Windows.
+/// @returns nothing if it is not a Windows bitmap.
 std::optional<RasterHeader> bmp_header(std::span<const std::uint8_t> bytes);
 
-/// @returns nothing for what is no WebP image.
+/// @returns nothing if it is not a WebP image.
 std::optional<RasterHeader> webp_header(std::span<const std::uint8_t> bytes);
 
 /// The orientation that a block of EXIF data asks for; 1 where it asks for none.

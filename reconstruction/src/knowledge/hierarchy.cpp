@@ -89,10 +89,11 @@ void check_no_circle(const Parents& parents, const std::map<std::string, std::st
   const std::vector<std::string_view> way = way_around(parents, left);
   const std::string name(way.front());
   const auto place = places.find(name);
-  throw bad_input(place == places.end() ? name : place->second,
-                  fmt::format("found the circle \"{}\": nothing can be its own ancestor; take one "
-                              "of these steps out",
-                              fmt::join(way, " is a ")));
+  throw bad_input(
+      place == places.end() ? name : place->second,
+      fmt::format(
+          "found the cycle \"{}\": a type cannot be its own ancestor; remove one of these steps",
+          fmt::join(way, " is a ")));
 }
 
 }  // namespace vantage::reconstruction::detail

@@ -18,9 +18,10 @@ MemoryKnowledgeBase::MemoryKnowledgeBase(std::vector<ObjectType> types, Hierarch
     const auto shared = std::make_shared<const ObjectType>(std::move(type));
     const auto [entry, is_new] = by_name_.try_emplace(shared->name, shared);
     if (!is_new) {
-      throw bad_input(reconstruction::detail::place_of(*shared),
-                      fmt::format("the name \"{}\" is taken by {}; types' names have to differ",
-                                  shared->name, reconstruction::detail::place_of(*entry->second)));
+      throw bad_input(
+          reconstruction::detail::place_of(*shared),
+          fmt::format("the name \"{}\" is already used by {}; type names must be unique",
+                      shared->name, reconstruction::detail::place_of(*entry->second)));
     }
     types_.push_back(shared);
     reconstruction::detail::add_parents(parents_, shared->name, shared->is_a);

@@ -38,7 +38,7 @@ std::optional<PoseFit> fit_pairs(std::span<const BoardPair> all, std::span<const
                                  const Pose& T_cam_world, double loss_sigmas);
 
 /// From a rough pose to the pairs that agree with it within `inlier_px`, and the least squares over
-/// them: fits robustly and collects anew, with less and less tolerance, until nothing changes.
+/// them: fits robustly and collects again, with less and less tolerance, until nothing changes.
 /// Nothing if fewer than four points are left.
 std::optional<BoardFit> settle(std::span<const BoardPair> pairs, const Pose& T_cam_world,
                                double inlier_px);

@@ -84,17 +84,16 @@ std::string flip_reason(const LocatedPose& best, const LocatedPose& other, std::
                         double evidence, double expected) {
   const double turn = turn_between(best.T_world_cam, other.T_world_cam);
   return fmt::format(
-      "the pose is ambiguous: two poses that differ by {:.3g} m and {:.3g}° explain the {} "
-      "{} of the board nearly equally well, chi-square {:.4g} and {:.4g}, a difference of "
-      "{:.3g} in units of the residuals' own variance where prints are not perfectly flat, "
-      "expected {:g}; move the camera closer "
-      "or aside, or add markers that do not lie in the same plane",
+      "the pose is ambiguous: two poses that differ by {:.3g} m and {:.3g}° explain the {} {} of "
+      "the board nearly equally well, chi-square {:.4g} and {:.4g}, a difference of {:.3g} in "
+      "units of the residuals' own variance where prints are not perfectly flat, expected {:g}; "
+      "move the camera closer or to the side, or add markers outside that plane",
       (best.T_world_cam.translation() - other.T_world_cam.translation()).norm(),
       turn * 180 / EIGEN_PI, markers, markers == 1 ? "marker" : "markers", best.chi_square,
       other.chi_square, evidence, expected);
 }
 
-/// Another set of as many markers that speaks for another pose.
+/// Another set of as many markers that supports another pose.
 const BoardFit* contradiction(std::span<const BoardPair> all, std::span<const BoardFit> fits) {
   const BoardFit& best = fits.front();
   for (const BoardFit& other : fits.subspan(1)) {
@@ -110,8 +109,8 @@ void decide(std::span<const BoardPair> all, std::span<const BoardFit> fits,
   if (const BoardFit* other = contradiction(all, fits)) {
     location.alternatives = {located(all, best), located(all, *other)};
     location.reason = fmt::format(
-        "the pose is ambiguous: {} markers of the board speak for one pose and {} others for "
-        "another one; check which of them were moved, or are on the board twice",
+        "the pose is ambiguous: {} markers of the board support one pose and {} others another "
+        "one; check which of them were moved, or are on the board twice",
         best.pairs.size(), other->pairs.size());
     return;
   }
@@ -170,7 +169,7 @@ void widen(LocatedPose& pose, const Pose& T_world_cam) {
   pose.covariance += error * error.transpose();
 }
 
-/// What speaks against a pose that was found.
+/// What contradicts a pose that was found.
 void doubt(const Lens& lens, const SeenBoard& seen, const BoardFit& best,
            const std::optional<reconstruction::detail::Explanation>& explanation,
            const std::vector<std::string>& against, CameraLocation& location) {
@@ -178,10 +177,10 @@ void doubt(const Lens& lens, const SeenBoard& seen, const BoardFit& best,
     location.warning = fmt::format(
         "{} of the {} markers of the board that are seen contradict the pose ({}): {}",
         against.size(), location.markers_seen, fmt::join(against, ", "),
-        explanation ? fmt::format("all but {} agree if {}",
-                                  location.markers_seen - explanation->markers, explanation->cause)
-                    : std::string("they were moved, read wrongly, or stand elsewhere in the "
-                                  "workcell"));
+        explanation
+            ? fmt::format("all but {} agree if {}", location.markers_seen - explanation->markers,
+                          explanation->cause)
+            : std::string("they were moved or misread, or the workcell has them elsewhere"));
     if (explanation) {
       if (explanation->markers == location.markers_seen) {
         location.warning = fmt::format(
@@ -236,7 +235,7 @@ CameraLocation locate_camera(const Lens& lens, std::span<const Observation> obse
   const std::string hint =
       explanation ? fmt::format("; {} agree if {}", explanation->markers, explanation->cause)
                   : std::string();
-  // A marker that is read wrongly fits to a pose of its own as well as a right one.
+  // A misread marker fits a pose of its own as well as a correct one.
   const bool mistaken = explanation && explanation->exact && against.size() > 1 &&
                         explanation->markers == location.markers_seen;
   const bool majority = best && best->pairs.size() >= 2 * against.size() && !mistaken;

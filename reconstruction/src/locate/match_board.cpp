@@ -51,7 +51,8 @@ std::string lack_of(const SeenBoard& seen, std::span<const Observation> observat
     if (!board.empty()) wanted = fmt::format(" (e.g. {})", key_text(board.front().key));
     return fmt::format(
         "no marker of the board is seen: {} observations{}, none of them one of the board's {} "
-        "features{}; turn the camera to the board, or name the board's markers in the workcell",
+        "features{}; turn the camera towards the board, or list the board's markers in the "
+        "workcell",
         observations.size(), example, board.size(), wanted);
   }
   if (seen.pairs.empty()) {

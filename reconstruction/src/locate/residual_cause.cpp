@@ -94,18 +94,17 @@ std::vector<Deviation> deviations(DeviationSearch& search, const Lens& lens, con
                        1 + by, 100 * by);
                  },
                  0.25});
-  all.push_back({[&search, lens](double by) {
-                   Distortion d = lens.distortion();
-                   d.k1 += by;
-                   return search.with_lens(lens.intrinsics(), d);
-                 },
-                 [](double by) {
-                   return fmt::format(
-                       "the lens has a radial distortion k1 of {:+.3f} beside what "
-                       "the calibration says; give --calibration",
-                       by);
-                 },
-                 0.6});
+  all.push_back(
+      {[&search, lens](double by) {
+         Distortion d = lens.distortion();
+         d.k1 += by;
+         return search.with_lens(lens.intrinsics(), d);
+       },
+       [](double by) {
+         return fmt::format(
+             "the lens has an additional radial distortion k1 of {:+.3f}; give --calibration", by);
+       },
+       0.6});
   all.push_back({[&search](double by) {
                    return search.with_points([&](std::vector<Eigen::Vector3d>& points) {
                      Eigen::Vector3d centre = Eigen::Vector3d::Zero();

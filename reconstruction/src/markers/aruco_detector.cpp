@@ -107,7 +107,7 @@ void find_markers(const cv::Mat1b& grey, const cv::Mat1f& light, const Lens* len
   }
 }
 
-/// One square of the image is one marker: the one whose pattern is better to be seen.
+/// A square of the image is one marker: the one whose pattern is more visible.
 void leave_one_of_each(std::vector<Found>& all) {
   std::vector<Found> kept;
   for (Found& found : all) {
@@ -135,8 +135,8 @@ void leave_out_overlaps(const std::vector<Found>& others, std::vector<Found>& so
 
 /// The white paper around a black marker is a black frame in the negative, and may be read as
 /// another marker; so may, of a white marker, the black around it. Those of the kind that there is
-/// less of are taken for that. A single inverted one is none: what is printed so is printed so
-/// everywhere.
+/// less of are taken for that. A single inverted one is not a marker: all markers of a print are
+/// inverted, or none.
 void add_inverted(std::vector<Found> inverted, std::vector<Found>& all) {
   constexpr std::size_t kFewestInverted = 2;
   if (inverted.size() > all.size()) {
@@ -150,7 +150,8 @@ void add_inverted(std::vector<Found> inverted, std::vector<Found>& all) {
 
 std::vector<Family> checked_families(const std::vector<std::string>& names) {
   const char* where = "dictionaries";
-  if (names.empty()) throw bad_input(where, "there is none; name at least one, e.g. 4X4_50");
+  if (names.empty())
+    throw bad_input(where, "there is no dictionary; name at least one, e.g. 4X4_50");
   std::vector<Family> families;
   std::set<std::string> seen;
   for (const std::string& name : names) {
@@ -160,8 +161,8 @@ std::vector<Family> checked_families(const std::vector<std::string>& names) {
                                          name, fmt::join(marker_dictionaries(), ", ")));
     }
     if (!seen.insert(marker_family(name)).second) {
-      throw bad_input(where, fmt::format("{} is the second one of the family {}, whose markers are "
-                                         "the same; name only the larger one",
+      throw bad_input(where, fmt::format("{} is the second dictionary of the family {}, whose "
+                                         "members share their markers; name only the larger one",
                                          name, marker_family(name)));
     }
     families.push_back({name, std::move(*dictionary)});

@@ -19,7 +19,7 @@ void leave_out_labels(CollectedMeasurements& collected) {
   for (Measurement& measurement : collected.measurements) {
     if (measurement.label()) {
       collected.unexplained.push_back(
-          {measurement.id, "a label says too little for a pose; the voting method uses it"});
+          {measurement.id, "a label alone does not determine a pose; the voting method uses it"});
     } else {
       rest.push_back(std::move(measurement));
     }
@@ -97,8 +97,8 @@ void reject_ambiguous(std::vector<Candidate>& candidates) {
   for (Candidate& candidate : candidates) {
     if (!candidate.rejected.empty() || candidate.best().correspondences.size() > 1) continue;
     if (candidate.voted_hypotheses.size() < 2) continue;
-    candidate.rejected = fmt::format("one feature in one view leaves {} poses open",
-                                     candidate.voted_hypotheses.size());
+    candidate.rejected =
+        fmt::format("one feature in one view allows {} poses", candidate.voted_hypotheses.size());
   }
 }
 
@@ -132,7 +132,7 @@ void explain_rest(const std::vector<Component>& components, const std::vector<ch
       const ObservationId id = components[c].measurements[n]->id;
       if (known.contains(id)) continue;
       result.unexplained.push_back({id, done[c] ? reason_for(components[c], n, thresholds)
-                                                : "not looked at: stopped before"});
+                                                : "not processed: stopped before"});
     }
   }
 }

@@ -91,7 +91,7 @@ Reconstruction reconstruct_svd(std::span<const CameraView> views, const Knowledg
     if (result.stopped == StopReason::none) result.stopped = stop.reason();
     Placed placed;
     const std::string reason = result.stopped == StopReason::none ? place(measurement, placed)
-                                                                  : "not looked at: stopped before";
+                                                                  : "not processed: stopped before";
     stop.advance(1);
     if (reason.empty()) {
       by_type[placed.feature->type->name].push_back(std::move(placed));

@@ -129,7 +129,7 @@ class Judge {
       if (&other == &object || !is_firmer(other, object)) continue;
       const double slack = slack_of(object) + slack_of(other);
       if (!reconstruction::detail::overlap(object, other, slack)) continue;
-      return fmt::format("a {} there would stand inside a {} that more observations speak for",
+      return fmt::format("a {} there would stand inside a {} that more observations support",
                          object.type->name, other.type->name);
     }
     return {};

@@ -156,9 +156,8 @@ std::optional<SelectedHypothesis> GreedyHypothesisSelection::selected_around(con
     accept(*selected);
     return selected;
   }
-  const std::string reason =
-      selected ? "an object of the type that it would be is there already"
-               : "more observations speak against the object that it would be than for it";
+  const std::string reason = selected ? "there is already an object of its type"
+                                      : "more observations contradict its object than support it";
   drop_votes_for(start, reason);
   drop(vote, reason);
   return std::nullopt;
@@ -236,7 +235,7 @@ std::string GreedyHypothesisSelection::reason_against(std::size_t measurement) c
   const Measurement& seen = candidates_->measurements[measurement];
   if (seen.label()) return "no object that carries " + name_of(seen.observation->key) + " is there";
   if (accumulator_->votes_of(measurement).empty()) {
-    return "has no pose of its own, and no object is where it would have to be";
+    return "has no pose of its own, and no object is where its object would have to be";
   }
   return "no object explains it";
 }

@@ -33,7 +33,7 @@ bool is_ambiguous(const Candidate& candidate) {
       [&](const FinalFit& voted) { return voted.hypothesis.type() == candidate.best().type(); });
 }
 
-/// What is not seen speaks too: see plausibility.hpp.
+/// What is not seen counts as well: see hypothesis_verification.hpp.
 void judge(std::vector<SelectedHypothesis>& all, std::span<const CameraView> views,
            const ReconstructOptions& options) {
   std::vector<Candidate> judged;
@@ -65,7 +65,7 @@ void explain_rest(const CandidateCorrespondences& candidates,
     if (known.contains(id)) continue;
     result.unexplained.push_back({id, result.stopped == StopReason::none
                                           ? election.reason_against(i)
-                                          : "not looked at: stopped before"});
+                                          : "not processed: stopped before"});
   }
 }
 

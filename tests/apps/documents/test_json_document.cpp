@@ -40,7 +40,7 @@ TEST_CASE("JSON is read with the lines of its values") {
   CHECK(parse_json("18446744073709551615", "t.json").root.get<std::uint64_t>() == UINT64_MAX);
 }
 
-TEST_CASE("what is no JSON is refused with line and column") {
+TEST_CASE("invalid JSON is refused with line and column") {
   expect_json_refused("{\"a\": 1,\n \"b\": }", "t.json:2:7", {"no valid JSON"});
   expect_json_refused("{},", "t.json:1:3", {"no valid JSON"});
   expect_json_refused("{\"a\": 1", "t.json:1:8", {"no valid JSON", "truncated"});
@@ -53,7 +53,7 @@ TEST_CASE("what is no JSON is refused with line and column") {
   expect_json_refused(" \r\n\t", "t.json", {"empty"});
 }
 
-TEST_CASE("keys that are there twice are refused, however many there are") {
+TEST_CASE("duplicate keys are refused, however many there are") {
   expect_json_refused("{\"a\": 1,\n\"b\": 2,\n\"a\": 3}", "t.json:3:3",
                       {"\"a\"", "twice", "line 1"});
   expect_json_refused("[{\"a\": {}},\n {\"b\": 1, \"b\": 1}]", "t.json:2:13", {"twice", "line 2"});

@@ -145,7 +145,7 @@ TEST_CASE("a name, or an object with one of two keys") {
   expect_refused([&] { check("5"); }, "cell.yaml:1: body", {"found 5", "a string or an object"});
 }
 
-TEST_CASE("what a value says of itself decides which keys it may have") {
+TEST_CASE("a value's type decides which keys it may have") {
   CHECK_NOTHROW(check_yaml(std::string(kGoodLine) +
                            "ways: [{kind: ship, draught_m: 2}, {kind: van, wheels: 4}, {}]\n"));
   expect_line_refused("ways: [{kind: ship}]", "cell.yaml:2: ways[0].draught_m", {"missing"});

@@ -100,12 +100,12 @@ TEST_CASE("syntax errors carry line and column") {
   expect_yaml_refused("a: 1\n\tb: 2\n", "t.yaml:2:1", {"tab"});
 }
 
-TEST_CASE("a key that is there twice is refused with both lines") {
+TEST_CASE("a duplicate key is refused with both lines") {
   expect_yaml_refused("a: 1\nb: 2\na: 3\n", "t.yaml:3:1", {"\"a\"", "twice", "line 1"});
   expect_yaml_refused("x:\n  a: 1\n  'a': 2\n", "t.yaml:3:3", {"\"a\"", "line 2"});
 }
 
-TEST_CASE("keys that are no words, tags and numbers out of range are refused") {
+TEST_CASE("keys that are not words, unknown tags and numbers out of range are refused") {
   expect_yaml_refused("a: 1\n? [x, y]\n: 2\n", "t.yaml:2:3", {"key"});
   expect_yaml_refused("a: !point [1, 2]\n", "t.yaml:1:4", {"!point"});
   expect_yaml_refused("a: !!python/object {}\n", "t.yaml:1:4", {"python/object"});

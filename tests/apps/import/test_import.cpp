@@ -217,7 +217,7 @@ TEST_CASE("images are chosen by number, and nothing of somebody else's is overwr
   REQUIRE(second.images.size() == 1);
   CHECK(second.images[0].id == 1);
   CHECK(imported(dataset, folder, {.every = 2}).images.size() == 1);
-  expect_bad_input("--images", "image 2 was asked for; there are 2",
+  expect_bad_input("--images", "there is no image 2; there are 2",
                    [&] { imported(dataset, folder, {.images = {2}}); });
   folder.write("mine/notes.txt", "mine");
   expect_bad_input("mine", "not empty", [&] { write_imported(dataset, {}, folder / "mine", {}); });

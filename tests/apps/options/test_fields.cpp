@@ -24,41 +24,57 @@ struct Everything {
   Eigen::Vector3d place_m = {1, 2, 3};
   std::vector<double> radii_m;
   std::vector<int> counts = {4};
+  bool peeled = false;
+  std::uint64_t seed = 5;
+  std::string note = "none";
+  std::vector<std::string> shelves = {"top"};
 };
 
 FieldGroup fields_of(Everything& all) {
-  return {"",
-          "Fruit",
-          {{.key = "ripe", .value = &all.ripe, .help = "Ripe", .option = "--ripe"},
-           {.key = "count",
-            .value = &all.count,
-            .help = "Pieces",
-            .option = "--count",
-            .range = from_to(0, 100)},
-           {.key = "fruit",
-            .value = choice(all.fruit, {{"apple", Fruit::apple}, {"pear", Fruit::pear}}),
-            .help = "Kind",
-            .option = "--fruit"},
-           {.key = "washed", .value = &all.washed, .help = "Washed", .option = "--washed"},
-           {.key = "price", .value = &all.price, .help = "Price", .range = not_negative()}},
-          {{"where",
-            "Place",
-            {{.key = "mass_kg",
-              .value = &all.mass_kg,
-              .help = "Mass",
-              .option = "--mass",
-              .unit = "kg",
-              .range = positive(),
-              .expert = true},
-             {.key = "place_m", .value = &all.place_m, .help = "Place", .option = "--place"},
-             {.key = "radii_m",
-              .value = &all.radii_m,
-              .help = "Radii",
-              .option = "--radii",
-              .unit = "m",
-              .range = positive(),
-              .fallback = "from the size"},
-             {.key = "counts", .value = &all.counts, .help = "Counts", .option = "--counts"}}}}};
+  return {
+      "",
+      "Fruit",
+      {{.key = "ripe", .value = &all.ripe, .help = "Ripe", .option = "--ripe"},
+       {.key = "count",
+        .value = &all.count,
+        .help = "Pieces",
+        .option = "--count",
+        .range = from_to(0, 100)},
+       {.key = "fruit",
+        .value = choice(all.fruit, {{"apple", Fruit::apple}, {"pear", Fruit::pear}}),
+        .help = "Kind",
+        .option = "--fruit"},
+       {.key = "washed", .value = &all.washed, .help = "Washed", .option = "--washed"},
+       {.key = "price", .value = &all.price, .help = "Price", .range = not_negative()},
+       {.key = "peeled",
+        .value = &all.peeled,
+        .help = "Peeled",
+        .option = "--peeled",
+        .flag = true},
+       {.key = "seed", .value = &all.seed, .help = "Seed", .option = "--seed", .range = {.min = 2}},
+       {.key = "note", .value = &all.note, .help = "Note", .option = "--note"},
+       {.key = "shelves",
+        .value = NameList{{"top", "middle"}, &all.shelves},
+        .help = "Shelves",
+        .option = "--shelves"}},
+      {{"where",
+        "Place",
+        {{.key = "mass_kg",
+          .value = &all.mass_kg,
+          .help = "Mass",
+          .option = "--mass",
+          .unit = "kg",
+          .range = positive(),
+          .expert = true},
+         {.key = "place_m", .value = &all.place_m, .help = "Place", .option = "--place"},
+         {.key = "radii_m",
+          .value = &all.radii_m,
+          .help = "Radii",
+          .option = "--radii",
+          .unit = "m",
+          .range = positive(),
+          .fallback = "from the size"},
+         {.key = "counts", .value = &all.counts, .help = "Counts", .option = "--counts"}}}}};
 }
 
 /// What the command line makes of the defaults.
@@ -113,7 +129,11 @@ TEST_CASE("fields: what the command line gives arrives, the rest stays") {
   CHECK(!none.washed);
   const Everything all = parsed(
       "--ripe on --count 7 --fruit pear --washed off --mass 1e-3 --place 0 -1 2.5 --radii 0.5,+1 "
-      "--counts 1,2");
+      "--counts 1,2 --peeled --seed 18446744073709551615 --note 2-9 --shelves middle,top");
+  CHECK(all.peeled);
+  CHECK(all.seed == 18446744073709551615u);
+  CHECK(all.note == "2-9");
+  CHECK(all.shelves == std::vector<std::string>{"middle", "top"});
   CHECK(all.ripe);
   CHECK(all.count == 7);
   CHECK(all.fruit == Fruit::pear);
@@ -133,11 +153,14 @@ TEST_CASE("fields: the command line's errors have the value and what was expecte
   CHECK(has(refusal("--radii 1,-1"), "found '-1'; expected a number above 0"));
   CHECK(has(refusal("--fruit plum"), "found 'plum'; expected one of apple, pear"));
   CHECK(has(refusal("--ripe yes"), "found 'yes'; expected one of on, off"));
+  CHECK(has(refusal("--seed 1"), "found '1'; expected an integer, 2 or above"));
+  CHECK(has(refusal("--seed 18446744073709551616"), "found '18446744073709551616'"));
+  CHECK(has(refusal("--shelves top,low"), "found 'low'; expected one of top, middle"));
   CHECK(!refusal("--place 1 2").empty());
 }
 
 TEST_CASE("fields: JSON that was written reads as the same values") {
-  Everything all{true, 9, 2.5, Fruit::pear, true, 3.25, {4, 5, 6}, {0.1}, {7, 8}};
+  Everything all{true, 9, 2.5, Fruit::pear, true, 3.25, {4, 5, 6}, {0.1}, {7, 8}, true, 6, "x", {}};
   const auto json = to_json(fields_of(all));
   CHECK(json["where"]["mass_kg"] == 2.5);
   CHECK(json["fruit"] == "pear");
@@ -158,6 +181,7 @@ TEST_CASE("fields: readers refuse what is out of range, with its place") {
     expect_bad_input(place, expected, [&] { read_fields(Value(document), fields_of(all)); });
   };
   refuses(R"({"count": 101})", "fruit.yaml: count", "an integer from 0 to 100");
+  refuses(R"({"seed": 1})", "fruit.yaml: seed", "an integer, 2 or above");
   refuses(R"({"where": {"mass_kg": 0}})", "fruit.yaml: where.mass_kg", "a number above 0");
   refuses(R"({"where": {"radii_m": [1, -2]}})", "fruit.yaml: where.radii_m[1]", "above 0");
 }
@@ -171,6 +195,10 @@ TEST_CASE("fields: the schema has types, ranges, defaults and help") {
   CHECK(count["maximum"] == 100);
   CHECK(count["default"] == 3);
   CHECK(count["description"] == "Pieces");
+  CHECK(schema["properties"]["seed"]["minimum"] == 2);
+  CHECK(schema["properties"]["note"]["type"] == "string");
+  CHECK(schema["properties"]["shelves"]["items"]["enum"] ==
+        std::vector<std::string>{"top", "middle"});
   CHECK(schema["properties"]["fruit"]["enum"] == std::vector<std::string>{"apple", "pear"});
   const auto& where = schema["properties"]["where"]["properties"];
   CHECK(where["mass_kg"]["exclusiveMinimum"] == 0);
@@ -178,14 +206,16 @@ TEST_CASE("fields: the schema has types, ranges, defaults and help") {
   CHECK(where["radii_m"]["items"]["exclusiveMinimum"] == 0);
 }
 
-TEST_CASE(
-    "help: grouped, without the experts' options unless all are asked for, 100 columns wide") {
+TEST_CASE("help: grouped, expert options in --help-all only, 100 columns wide") {
   const std::string brief = help("--help"), full = help("--help-all");
   CHECK(has(brief, "Fruit:\n"));
   CHECK(has(brief, "--count N"));
   CHECK(has(brief, "Pieces (default: 3)"));
   CHECK(has(brief, "--fruit apple|pear"));
   CHECK(has(brief, "Radii (default: from the size)"));
+  CHECK(has(brief, "Counts (default: 4)"));
+  CHECK(has(brief, "--shelves top|middle,…"));
+  CHECK(has(brief, "Shelves (default: top)"));
   CHECK(!has(brief, "--mass"));
   CHECK(has(brief, "--help-all"));
   CHECK(has(full, "--mass kg"));

@@ -46,7 +46,7 @@ TEST_CASE("the mesh method weighs by volume, and by depth if its power is named"
   CHECK(mesh_of("--depth-power 3 --mesh-weight volume").weight == MeshWeight::volume);
 }
 
-TEST_CASE("what the mesh method is told arrives") {
+TEST_CASE("the mesh method gets its options") {
   const PlanRequest request = request_from(
       "--method mesh --mesh-step 3 --mesh-holes unknown --mesh-offset 2 --mesh-opening 0.04 "
       "--mesh-exact 7 --mesh-shortlist 9 --servo 2 --polish 0");

@@ -13,7 +13,7 @@ TEST_CASE("printable text stays as it is") {
   }
 }
 
-TEST_CASE("control characters and bytes that are no UTF-8 are escaped") {
+TEST_CASE("control characters and bytes that are not UTF-8 are escaped") {
   CHECK(printable("a\x1b[2Jb\r\x07\x7f") == "a\\x1b[2Jb\\x0d\\x07\\x7f");
   CHECK(printable(std::string_view("\0", 1)) == "\\x00");
   CHECK(printable("\xc2\x9b") == "\\xc2\\x9b");           // CSI as one character
@@ -24,7 +24,7 @@ TEST_CASE("control characters and bytes that are no UTF-8 are escaped") {
   CHECK(printable("\xf4\x90\x80\x80x") == "\\xf4\\x90\\x80\\x80x");  // beyond Unicode
 }
 
-TEST_CASE("numbers that begin with a dot are no options") {
+TEST_CASE("numbers that begin with a dot are not options") {
   const char* words[] = {"vantage", "-.5", "-.x", "-.", "-o", "-0.5", "--a=-.5", ".5"};
   const auto plain = plain_arguments(int(std::size(words)), const_cast<char**>(words));
   CHECK(plain ==

@@ -104,7 +104,7 @@ TEST_CASE("a world that was written is read back") {
   CHECK(world.objects[0].alternatives[0].probability == 0.25);
 }
 
-TEST_CASE("a world has BOP's poses beside ours, and says what is left over") {
+TEST_CASE("a world has BOP's poses as well as ours, and lists what is unexplained") {
   const auto json = Case().json();
   REQUIRE(json["bop"].contains("3"));
   CHECK(!json["bop"].contains("20"));  // nobody knows where that camera is
@@ -144,7 +144,7 @@ TEST_CASE("a world.json that is damaged is refused with the place") {
   refused([](auto& w) { w["object"] = 1; }, "object", "objects");
 }
 
-TEST_CASE("names of objects are unique, whatever else is there") {
+TEST_CASE("object names are unique, whichever names are taken") {
   Reconstruction result;
   const TypePtr cube = box_type("cube"), ball = box_type("ball");
   for (const TypePtr& type : {ball, cube, cube}) result.objects.push_back({type, {}});

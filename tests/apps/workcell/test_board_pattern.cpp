@@ -135,7 +135,7 @@ TEST_CASE("poses as matrix, roll pitch yaw, and by what they look at") {
           {"last row"});
   refused("matrix: [[2, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]", "pose.matrix",
           {"no rotation"});
-  refused("look_at_m: [0, 0, 0]", "pose.look_at_m", {"where the pose itself is"});
+  refused("look_at_m: [0, 0, 0]", "pose.look_at_m", {"the position of the pose itself"});
 }
 
 }  // namespace vantage::test

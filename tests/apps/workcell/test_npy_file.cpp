@@ -68,9 +68,9 @@ TEST_CASE("arrays as NumPy writes them, in every format") {
         std::vector<std::uint8_t>{'a', 'b', 'c', 'd'});
 }
 
-TEST_CASE("what is no array of bytes is refused") {
-  expect_npy_refused("", "no NumPy array");
-  expect_npy_refused("work_area: 1\n", "no NumPy array");
+TEST_CASE("files that are not arrays of bytes are refused") {
+  expect_npy_refused("", "not a NumPy array");
+  expect_npy_refused("work_area: 1\n", "not a NumPy array");
   expect_npy_refused(npy(kDictionary, counting(), 4), "format 4.0");
   expect_npy_refused(npy(kDictionary, counting() + "x"), "25 bytes follow its header; expected 24");
   expect_npy_refused(npy(kDictionary, ""), "0 bytes follow");
@@ -97,7 +97,7 @@ TEST_CASE("what is no array of bytes is refused") {
   expect_bad_input("missing.npy", "o such file", [] { read_npy_bytes("missing.npy"); });
 }
 
-TEST_CASE("a header that is no such dictionary is refused, with the place in it") {
+TEST_CASE("a header that is not such a dictionary is refused, with the place in it") {
   expect_dictionary_refused("[]", "\"[]");
   expect_dictionary_refused("{'descr': '|u1', 'shape': (2, 3, 4)}", "all of the keys");
   expect_dictionary_refused("{'descr': '|u1', 'descr': '|u1'}", "every key once");

@@ -168,7 +168,7 @@ TEST_CASE("without a board, random objects lie on the work area's floor") {
 TEST_CASE("random objects without room, or without anything to place") {
   TemporaryFolder folder;
   Workcell full = with_board(folder, "random_objects: {count: 60, types: [cube]}\n");
-  expect_bad_input(": random_objects, area", "of 60 bodies are placed",
+  expect_bad_input(": random_objects, area", "of 60 bodies were placed",
                    [&] { place_random_objects(full); });
   Workcell none = with_board(folder);
   place_random_objects(none);

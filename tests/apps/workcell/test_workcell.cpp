@@ -211,7 +211,7 @@ TEST_CASE("boxes and ranges the wrong way round are refused") {
                       {"min_m: 2", "max_m: 1"});
 }
 
-TEST_CASE("objects that are none are refused") {
+TEST_CASE("invalid objects are refused") {
   const auto with = [](const std::string& object) {
     return "known_objects:\n  - " + object + "\n";
   };

@@ -122,7 +122,7 @@ TEST_CASE("views and paths may be files, JSON or YAML") {
   expect_views(std::get<AroundPath>(path.candidates).path);
 }
 
-TEST_CASE("candidates that are none are refused") {
+TEST_CASE("invalid candidates are refused") {
   const auto with = [](const char* text) { return "candidates: " + std::string(text) + "\n"; };
   expect_cell_refused(with("{views: views.json, rings: 1, set: full}"), "cell.yaml:2: candidates",
                       {"views, set, rings", "one of"});
@@ -147,7 +147,7 @@ TEST_CASE("candidates that are none are refused") {
                       "candidates.views[0].T_world_cam.rotation", {"norm"});
 }
 
-TEST_CASE("a file of views that is none is refused with its own place") {
+TEST_CASE("an invalid file of views is refused with its own place") {
   TemporaryFolder folder;
   const auto refuses = [&](const std::string& text, std::string_view where, std::string_view part) {
     expect_refused([&] { read_view_file(folder.write("v.yaml", text)); }, where, {part});
@@ -226,7 +226,7 @@ TEST_CASE("a workcell names the camera's body, says that there is none, or leave
   CHECK(body.clearance_m == 0);
 }
 
-TEST_CASE("limits that are none are refused") {
+TEST_CASE("invalid limits are refused") {
   expect_cell_refused("reach: {shell: {base_m: [0, 0, 0], min_m: 2, max_m: 1}}\n",
                       "cell.yaml:2: reach.shell", {"min_m: 2", "max_m: 1"});
   expect_cell_refused("reach: {base_m: [0, 0, 0]}\n", "reach.max_m", {"missing", "outer sphere"});
@@ -237,7 +237,7 @@ TEST_CASE("limits that are none are refused") {
   expect_cell_refused("reach: {map: {file: none.npy, origin_m: [0, 0, 0], cell_m: 1}}\n",
                       "reach.map.file", {"no file", "none.npy"});
   expect_cell_refused("reach: {map: {file: views.json, origin_m: [0, 0, 0], cell_m: 1}}\n",
-                      "views.json", {"no NumPy array"});
+                      "views.json", {"not a NumPy array"});
   expect_cell_refused("reach: {map: {file: views.json, origin_m: [0, 0, 0], cell_m: 0}}\n",
                       "reach.map.cell_m", {"found 0"});
   expect_cell_refused("view_cone: {axis: [0, 0, 0], half_angle_rad: 1}\n", "view_cone",

@@ -39,7 +39,7 @@ TEST_CASE("a shifted object is off by the shift, whatever its shape") {
   CHECK(std::abs(add_s_m(model, estimate, truth) - shift.norm()) < 1e-12);  // corners are far apart
 }
 
-TEST_CASE("a cube turned by a quarter is as it was, if it is said to be symmetric") {
+TEST_CASE("a cube after a quarter turn is unchanged if it is symmetric") {
   const TriangleMesh cube = box_solid({0.05, 0.05, 0.05});
   const ErrorModel symmetric = error_model(cube, quarter_turns()), plain = error_model(cube, {});
   const Pose truth = turn(0.3, Eigen::Vector3d::UnitX(), {0, 0, 0.8});

@@ -69,7 +69,7 @@ TEST_CASE("tables 9.1 to 9.4: every iteration, the pick marked") {
   CHECK(servo_table(two_scenes().scenes[1]).rows.empty());
 }
 
-TEST_CASE("tables 9.1 to 9.4: what polishing made of it is no iteration of the thesis' servo") {
+TEST_CASE("tables 9.1 to 9.4: the polished pose is not an iteration of the thesis' servo") {
   PlanningEvaluation evaluation = two_scenes();
   evaluation.polished_views = 2;
   Pick& pick = *evaluation.scenes[0].sets[0].runs[1].pick;
@@ -82,7 +82,7 @@ TEST_CASE("tables 9.1 to 9.4: what polishing made of it is no iteration of the t
   CHECK(has(comparison_table(evaluation, "full").title, "servo 5, 2 polished"));
 }
 
-TEST_CASE("a scene without shadow is said to be one") {
+TEST_CASE("a scene without shadow gets a remark") {
   const PlanningEvaluation evaluation = two_scenes();
   CHECK(remarks_on(evaluation.scenes[0]).empty());
   const auto remarks = remarks_on(evaluation.scenes[1]);

@@ -64,7 +64,7 @@ TEST_CASE("means over the pairs, by method") {
   CHECK(*blind_share_of_best(evaluation) == doctest::Approx((0.5 + 2.0 / 3) / 2));
 }
 
-TEST_CASE("a pair of which nothing is revealed says nothing of a method") {
+TEST_CASE("a pair of which nothing is revealed does not count for a method") {
   ReplayEvaluation evaluation{{"voxel"}, {pair_with({0, 0}, {1})}};
   CHECK_FALSE(worth_of(evaluation.pairs[0], 0));
   CHECK_FALSE(replay_means(evaluation, 0));

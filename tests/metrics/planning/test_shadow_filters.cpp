@@ -59,7 +59,7 @@ TEST_CASE("shadow is scored against the truth: solid and boundary voxels count f
   CHECK(*part.recall() == doctest::Approx(6.0 / 9));
 }
 
-TEST_CASE("precision, recall and F1 are none where they have no meaning") {
+TEST_CASE("precision, recall and F1 are empty where they are undefined") {
   CHECK_FALSE(score_of(0, 0, 1).precision());
   CHECK_FALSE(score_of(0, 1, 0).recall());
   CHECK_FALSE(score_of(0, 0, 1).f1());

@@ -57,7 +57,7 @@ TEST_CASE("zeros and nothing at all have an axis, too") {
   CHECK(PlotAxis({0, 0}, {0}).share(0) == 0);
 }
 
-TEST_CASE("a plot has a mark for each value, bars, a legend, and no number that is none") {
+TEST_CASE("a plot has a mark for each value, bars, a legend, and no NaN") {
   const std::string svg =
       error_plot_svg("Title", "cameras", one_panel({{2, 1, 0.5}, {3, 0.5, 0.1}, {4, 0.2, 0}}));
   CHECK(svg.starts_with("<svg xmlns="));

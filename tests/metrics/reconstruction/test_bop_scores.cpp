@@ -97,7 +97,7 @@ TEST_CASE("each estimate's errors are those of its object") {
   }
 }
 
-TEST_CASE("hidden objects are no targets, and finding them does neither good nor harm") {
+TEST_CASE("hidden objects are not targets, and finding them changes no score") {
   MeasuredCubes scene;
   for (ScoredImage& image : scene.images) {  // a wall at 10 cm
     image.depth = std::make_shared<const DepthImage>(160, 120, std::vector<float>(160 * 120, 0.1f));

@@ -105,7 +105,7 @@ TEST_CASE("no self-consistency without every object that touches, or where none 
   CHECK_FALSE(alone.evaluator(red, {true, true}).self_consistency_mm2);
 }
 
-TEST_CASE("nothing reconstructed is no error, but finds nothing") {
+TEST_CASE("an empty reconstruction has no error, but finds nothing") {
   const ReconstructionScore score = ReconstructionEvaluator(scene()).evaluator({}, kAll);
   CHECK(score.estimates == 0);
   CHECK(score.found == 0);

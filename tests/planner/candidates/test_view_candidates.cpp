@@ -85,7 +85,7 @@ void expect_fan(std::span<const ViewCandidate> views, const ViewFan& fan,
 
 }  // namespace
 
-TEST_CASE("a half-sphere has exactly as many directions as asked for, all above the horizon") {
+TEST_CASE("a half-sphere has exactly the requested number of directions, all above the horizon") {
   for (int count = 1; count <= 300; ++count) {
     CAPTURE(count);
     const auto directions = half_sphere_directions(count);

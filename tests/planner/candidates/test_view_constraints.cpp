@@ -172,7 +172,7 @@ TEST_CASE("the camera's body keeps its distance") {
   CHECK(cell.check(with_body(beside), eye, level) == InvalidReason::too_close_to_occupied);
 }
 
-TEST_CASE("the camera's body keeps its distance from the floor, which is no structure") {
+TEST_CASE("the camera's body keeps its distance from the floor, which is not a structure") {
   const Cell cell;
   const Eigen::Vector3d eye(0.5, 0, 0.1), level(0, 0, 0.1);
   CHECK(cell.check(with_clearance(0.099), eye) == InvalidReason::none);
@@ -204,7 +204,7 @@ TEST_CASE("by default a camera is a D435 that stays 20 mm away") {
   CHECK(body.contains(Eigen::Vector3d::Zero()));
 }
 
-TEST_CASE("the camera's body stays out of what nobody has seen") {
+TEST_CASE("the camera's body stays out of unseen volume") {
   const Cell dark(false);
   const Eigen::Vector3d eye(0.26, 0, 0.12), level(0, 0, 0.12);  // 6 cm from it
   CHECK(dark.check(with_body(SphereBody{0.059}), eye) == InvalidReason::none);
@@ -256,7 +256,7 @@ TEST_CASE("of several reasons the first one counts") {
   CHECK(dark.check(limits, {0.5, 0, 0.1}) == InvalidReason::too_close_to_occupied);
 }
 
-TEST_CASE("checks are asked last, in their order, and the first that says no counts") {
+TEST_CASE("checks are called last, in order, and the first rejection counts") {
   const ViewCheck yes = [](const Pose&) { return std::nullopt; };
   const auto no = [](const std::string& why) {
     return view_check([](const Pose&) { return false; }, why);

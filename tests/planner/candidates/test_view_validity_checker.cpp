@@ -106,7 +106,7 @@ TEST_CASE("with voxels as occluders, distances are to the voxels") {
   CHECK(std::abs(distance(OccluderMode::voxels) - std::hypot(0.03, 0.03)) < 2e-4);
 }
 
-TEST_CASE("a body stays out of what nobody has seen, whatever hides it") {
+TEST_CASE("a body stays out of unseen volume, whatever hides it") {
   const WorldModel world = wall_world();
   const auto grid = classify(world, GridGeometry::covering(random_workcell_area(), 0.01));
   const Pose behind = Pose::looking_at({0, 0.35, 0.09}, {0, 0, 0.09});  // looks into the shadow

@@ -75,7 +75,7 @@ TEST_CASE("explanations are by the plan's own scorers, and as good as by new one
   }
 }
 
-TEST_CASE("explanations come in the order asked for, and end where they are told to") {
+TEST_CASE("explanations come in the order asked for, and end when stopped") {
   const auto [world, plan] = planned(VoxelMethod{});
   const auto some = explain_views(world, plan, std::array{7, 2, 7});
   REQUIRE(some.size() == 3);

@@ -183,7 +183,7 @@ TEST_CASE("views end where they are not worth it") {
   CHECK(plan_next_view(posts_world(), request).views.size() == 1);
 }
 
-TEST_CASE("a costly journey keeps the camera near") {
+TEST_CASE("a high travel cost keeps the camera near") {
   PlanRequest request = k_views(2);
   const Eigen::Vector3d here(0.3, 0.1, 0.2);
   request.search.travel = TravelCost{0, here};

@@ -131,7 +131,7 @@ TEST_CASE("polishing climbs as its slow twin does, step by step") {
   CHECK(steps > 300);
 }
 
-TEST_CASE("each move is what its name says") {
+TEST_CASE("each move does what its name says") {
   const Pose start = Pose::looking_at(kMiddle + Eigen::Vector3d(0, -0.6, 0.3), kMiddle);
   const auto moved = [&](std::size_t move, double degrees) {
     test::PolishAngles angles{};
@@ -192,7 +192,7 @@ TEST_CASE("on random workcells every step is feasible and better, and the end a 
   CHECK(steps > test::enough(40));
 }
 
-TEST_CASE("a costly journey ends polishing earlier") {
+TEST_CASE("a high travel cost ends polishing earlier") {
   const Pose start = Pose::looking_at(kMiddle + Eigen::Vector3d(0, -0.6, 0.3), kMiddle);
   const Eigen::Vector3d goal = kMiddle + Eigen::Vector3d(0.6, 0, 0.3);
   const auto hill = std::make_shared<const HillScorer>(goal, (kMiddle - goal).normalized());
@@ -207,7 +207,7 @@ TEST_CASE("a costly journey ends polishing earlier") {
   CHECK((end(100) - start.translation()).norm() < 1e-9);
 }
 
-TEST_CASE("polishing ends where it is told to, and where nothing is better") {
+TEST_CASE("polishing ends when it is stopped, and where nothing is better") {
   const Pose start = Pose::looking_at(kMiddle + Eigen::Vector3d(0, -0.6, 0.3), kMiddle);
   const auto flat = std::make_shared<const test::FakeScorer>(1, 0, 0);  // 0 everywhere
   CHECK(ViewPolisher(flat, free_space(), kCamera, kMiddle, {}).path(start).empty());

@@ -85,7 +85,8 @@ TEST_CASE("what cannot be read is named with the reason") {
   REQUIRE(mkfifo((folder / "pipe").c_str(), 0600) == 0);
   test::expect_bad_input("pipe", "no regular file", [&] { read_file(folder / "pipe"); });
   folder.write("big", "12345");
-  test::expect_bad_input("big", "has 5 bytes; at most 4", [&] { read_file(folder / "big", 4); });
+  test::expect_bad_input("big", "has 5 bytes; the limit is 4",
+                         [&] { read_file(folder / "big", 4); });
   CHECK(read_file(folder / "big", 5).size() == 5);
 }
 

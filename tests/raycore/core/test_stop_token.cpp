@@ -9,7 +9,7 @@ using namespace vantage;
 using Clock = StopToken::Clock;
 using namespace std::chrono_literals;
 
-TEST_CASE("a token stops only when it is told to") {
+TEST_CASE("a token stops only when it is cancelled or its deadline is reached") {
   const StopToken token;
   CHECK(token.reason() == StopReason::none);
   CHECK_FALSE(token.stop_requested());

@@ -140,7 +140,7 @@ TEST_CASE("in_view counts pixels from -0.5 up to, but not including, size - 0.5"
   CHECK_FALSE(camera.in_view({kInfinity, 0, 1}));
 }
 
-TEST_CASE("intrinsics that are none are refused with the value") {
+TEST_CASE("invalid intrinsics are refused with the value") {
   const auto refuse = [](Intrinsics k, const char* message) {
     expect_bad_input("frame 3", message, [&] { PinholeCamera(k, Pose(), {}, "frame 3"); });
   };
@@ -160,7 +160,7 @@ TEST_CASE("intrinsics that are none are refused with the value") {
   refuse(with(&Intrinsics::cy, kInfinity), "cy is inf");
 }
 
-TEST_CASE("a depth range that is none is refused with the values") {
+TEST_CASE("an invalid depth range is refused with the values") {
   const auto refuse = [](DepthRange range, const char* message) {
     expect_bad_input("arm", message, [&] { PinholeCamera(kKinect, Pose(), range, "arm"); });
   };

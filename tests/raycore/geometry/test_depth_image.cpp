@@ -11,7 +11,7 @@
 using namespace vantage;
 using namespace vantage::test;
 
-TEST_CASE("a new depth image knows nothing") {
+TEST_CASE("a new depth image is unknown everywhere") {
   const DepthImage depth(3, 2);
   CHECK((depth.width() == 3 && depth.height() == 2 && depth.metres().size() == 6));
   for (const float metres : depth.metres()) CHECK(std::isnan(metres));
@@ -49,7 +49,7 @@ TEST_CASE("a scale so large or small that depths overflow or vanish leaves them 
   }
 }
 
-TEST_CASE("what is no depth image is refused") {
+TEST_CASE("invalid depth images are refused") {
   expect_bad_input("depth", "0×4", [] { DepthImage(0, 4); });
   expect_bad_input("depth", "4×-1", [] { DepthImage(4, -1); });
   expect_bad_input("a.png", "3 depths for 2×2", [] { DepthImage(2, 2, {1, 2, 3}, "a.png"); });

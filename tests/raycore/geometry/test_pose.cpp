@@ -121,7 +121,7 @@ TEST_CASE("a rotation may be off by 1e-3 and comes out orthonormal") {
   });
 }
 
-TEST_CASE("what is no rotation is refused") {
+TEST_CASE("what is not a rotation is refused") {
   const Vector3d zero = Vector3d::Zero();
   const Matrix3d mirror = Vector3d(1, 1, -1).asDiagonal();
   expect_bad_input("cam 1", "reflection", [&] { Pose::from_rotation(mirror, zero, "cam 1"); });

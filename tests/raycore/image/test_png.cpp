@@ -93,13 +93,13 @@ TEST_CASE("an image without pixels is not written") {
   CHECK(std::filesystem::is_empty(folder.path()));
 }
 
-TEST_CASE("what is no depth is refused before it is unpacked") {
+TEST_CASE("what is not depth is refused before it is unpacked") {
   const test::TemporaryFolder folder;
   write_png(folder / "rgb.png", ColorImage(3, 3, 128));
   expect_refused(test::read_text(folder / "rgb.png"), "is RGB, 8 bits per sample; depth needs");
   expect_refused(kGrey8, "has 8 bits per sample; depth needs 16");
   expect_refused("", "is empty");
-  expect_refused("this is a text, not a picture", "is no PNG");
+  expect_refused("this is a text, not a picture", "is not a PNG");
   test::expect_bad_input("none.png", "No such file", [&] { read_png_counts(folder / "none.png"); });
 }
 

@@ -53,7 +53,7 @@ std::string end_of(const raycore::detail::ChildLimits& limits,
 
 }  // namespace
 
-TEST_CASE("a DAE stands as it says, whatever assimp makes of it") {
+TEST_CASE("a DAE stands by its own up axis, whatever assimp makes of it") {
   CHECK(first_corner("<up_axis>Z_UP</up_axis>") == Eigen::Vector3f(1, 2, 3));
   CHECK(first_corner("<up_axis>Y_UP</up_axis>") == Eigen::Vector3f(1, -3, 2));
   CHECK(first_corner("<up_axis> X_UP </up_axis>") == Eigen::Vector3f(-2, -3, 1));
@@ -93,7 +93,7 @@ TEST_CASE("a 3DS keeps its coordinates, whatever assimp makes of them") {
   CHECK(read_mesh(file, {1, UpAxis::y}).corner(0, 0) == Eigen::Vector3f(1, -3, 2));
 }
 
-TEST_CASE("an FBX stands as it says") {
+TEST_CASE("an FBX stands by its own up axis") {
   const auto corner = [](int axis, int sign) {
     const test::TemporaryFolder folder;
     const std::string text = fmt::format(

@@ -117,7 +117,7 @@ TEST_CASE("ducks of no size are refused") {
   for (const double bad : {0.0, -1.0, double(NAN), std::numeric_limits<double>::infinity()}) {
     expect_refused([&] { duck_solid(bad); }, "length_m", {"finite length above 0"});
   }
-  expect_refused([] { duck_solid(1e-44); }, "length_m", {"so small"});
+  expect_refused([] { duck_solid(1e-44); }, "length_m", {"too small"});
 }
 
 TEST_CASE("a surface net of a sphere is closed and lies on it") {

@@ -37,22 +37,22 @@ TEST_CASE("bytes behind the end of an STL") {
 }
 
 TEST_CASE("more behind the last element of a PLY") {
-  expect_remark("a.ply", test::ply("ascii") + "3\n", {"more follows the last element"});
-  expect_remark("a.ply", test::ply("binary_little_endian") + "more", {"more follows"});
+  expect_remark("a.ply", test::ply("ascii") + "3\n", {"more after the last element"});
+  expect_remark("a.ply", test::ply("binary_little_endian") + "more", {"more after"});
   expect_remark("a.ply", replaced(test::ply("ascii"), "edge 2", "edge 1"), {"is a count wrong?"});
   const test::TemporaryFolder folder;
   const auto file = folder.write("a.ply", test::ply("binary_big_endian") + "\r\n");
   CHECK(read_mesh(file).remarks().empty());  // some programs end it with a line
 }
 
-TEST_CASE("vertices that are no points matter only to faces that use them") {
+TEST_CASE("vertices that are not finite matter only to faces that use them") {
   const std::string obj = test::obj_text();
   expect_remark("a.obj", obj + "v nan 0 0\nv 0 inf 0\n", {"a.obj:15", "2 vertices", "nan"});
   expect_remark("a.obj",
                 "v 0 0 -1e9\n" + replaced(replaced(replaced(obj, "f 1 3 2", "f 2 4 3"),
                                                    "f 1/1 2/1 4/1", "f 2 3 5"),
                                           "f 2//1 3//1 4//1", "f 3 4 5"),
-                {"a.obj:1", "1 vertex that no face uses is no point"});
+                {"a.obj:1", "1 vertex that no face uses is not finite"});
   std::string ply = replaced(test::ply("ascii"), "vertex 4", "vertex 5");
   ply = replaced(ply, "0 0 1 7\n", "0 0 1 7\nnan nan 0 7\n");
   expect_remark("a.ply", ply, {"a.ply:20"});

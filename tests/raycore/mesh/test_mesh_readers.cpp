@@ -109,7 +109,7 @@ TEST_CASE("the unit is applied in every format, before rounding") {
   CHECK(read_bytes("a.obj", far, 1e-9).vertices().at(1).x() == 0.123456789f);
 }
 
-TEST_CASE("a unit that is no size is refused") {
+TEST_CASE("an invalid unit is refused") {
   for (const double unit : {0.0, -1.0, std::numeric_limits<double>::quiet_NaN(),
                             std::numeric_limits<double>::infinity()}) {
     test::expect_bad_input("unit_m", "expected", [&] { read_bytes("a.stl", "", unit); });

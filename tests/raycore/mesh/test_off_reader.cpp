@@ -56,7 +56,7 @@ TEST_CASE("OFF: what is damaged is refused with its line") {
   expect_off_refused("OFF\n3 1 0\n0 0 0\n1 0\n0 1 0\n3 0 1 2\n", "a.off:4", "ends before z");
   expect_off_refused("OFF\n3000000000 1 0\n", "a.off:2", "claims 3000000000 vertices");
   expect_off_refused("OFF\n1 3.0.3\n", "a.off:2", "number of faces is \"3.0.3\"");
-  expect_off_refused("4OFF\n3 1 0\n", "a.off:1", "of three dimensions");
+  expect_off_refused("4OFF\n3 1 0\n", "a.off:1", "three-dimensional");
   expect_off_refused("OFF BINARY\n\1\2", "a.off:1", "binary OFF");
   expect_off_refused("solid\n", "a.off:1", "begins with \"solid\"");
   expect_off_refused("OFF\n3 1 0\n0 0 0\nnan 0 0\n0 1 0\n3 0 1 2\n", "a.off:4", "nan");

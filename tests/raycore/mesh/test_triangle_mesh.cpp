@@ -88,7 +88,7 @@ TEST_CASE("scaling multiplies the corners and keeps the count of dropped faces")
   CHECK(mesh.dropped_degenerate() == 1);
 }
 
-TEST_CASE("a factor that is no size is refused") {
+TEST_CASE("an invalid scale factor is refused") {
   const TriangleMesh mesh(kCorners, {{0, 1, 2}});
   test::expect_bad_input("factor", "is 0", [&] { mesh.scaled(0); });
   test::expect_bad_input("factor", "is -1", [&] { mesh.scaled(-1); });

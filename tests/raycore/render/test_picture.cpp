@@ -104,7 +104,7 @@ TEST_CASE("a picture is the same to the byte at 1, 2, 3 and 8 threads") {
   for (const int threads : {2, 3, 8}) CHECK(*draw(threads) == *first);
 }
 
-TEST_CASE("a picture that is stopped is none, and nonsense is refused") {
+TEST_CASE("a stopped picture returns nothing, and invalid options are refused") {
   const FloorAndBox world;
   const StopToken stop;
   stop.cancel();

@@ -170,7 +170,7 @@ TEST_CASE("between pads in a frame that touches them is outside") {
   for (const double z : {-2.5, -1.5, 1.5, 2.5}) CHECK(scene->encloses({0.1, 0.2, z}));
 }
 
-TEST_CASE("queries that are none are refused") {
+TEST_CASE("invalid queries are refused") {
   SceneBuilder builder;
   builder.add_box(kCube);
   const auto scene = builder.build();

@@ -84,7 +84,7 @@ TEST_CASE("bits of packets that are occluded are the batch's flags, where they a
   CHECK(open > test::enough(1000));
 }
 
-TEST_CASE("packets that are not there in full, spans that differ and rays that are none") {
+TEST_CASE("incomplete packets, spans of different sizes and invalid rays are refused") {
   const test::RandomScene s = test::random_scene(1, false);
   Batch batch(1);
   const Eigen::Vector3f to(2, 0, 0);

@@ -232,7 +232,7 @@ TEST_CASE("a mesh that is refused or empty leaves the scene usable") {
   CHECK(builder.build()->occluded({0.5f, 0.4f, 2}, {0.5f, 0.4f, -1}));
 }
 
-TEST_CASE("the triangles that a scene says it has are those that rays meet") {
+TEST_CASE("the triangles that a scene reports are those that rays meet") {
   for (std::uint32_t seed = 0; seed < 8; ++seed) {
     CAPTURE(seed);
     const RandomScene random = random_scene(seed, seed % 2 == 0);

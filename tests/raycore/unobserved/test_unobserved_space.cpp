@@ -84,7 +84,7 @@ TEST_CASE("without lattices a ray meets the box's face, or is in the unseen from
   expect_face(middle_pixel(space, viewer_at({2, 0, 0.5}, {0, 0, 0.5}, 1.4)), infinity);
 }
 
-TEST_CASE("a ray goes on to where the last volume ends, and knows how it was looked at") {
+TEST_CASE("a ray goes on to where the last volume ends, and gets the facing there") {
   const VisibilityMesh lattices[] = {looks_down(0.5), looks_down(0.2)};
   const UnobservedSpace space(lattices, kUnitBox);
   const auto expect_hit = [&](const PinholeCamera& camera, double t, std::uint32_t source,
@@ -122,7 +122,7 @@ TEST_CASE("a floor that was measured where the box ends is not met") {
   CHECK(on_box > 300);
 }
 
-TEST_CASE("the same camera twice shows what it shows once, and one that knows nothing, nothing") {
+TEST_CASE("the same camera twice shows what it shows once, and one without depth nothing") {
   for (std::uint32_t seed = 0; seed < scene_count(30); ++seed) {
     CAPTURE(seed);
     RandomLattices scene = random_lattices(seed);

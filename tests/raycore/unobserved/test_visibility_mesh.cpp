@@ -78,7 +78,7 @@ TEST_CASE("a lattice sees the points that are in its tetrahedra") {
   CHECK(outside >= enough(2000));
 }
 
-TEST_CASE("lattices that are none are refused, and the error says where") {
+TEST_CASE("invalid lattices are refused with the place") {
   const auto expect_refusal = [](const VisibilityMesh& lattice, const char* message) {
     expect_bad_input("depth lattice", message, [&] { lattice.check(); });
   };

@@ -81,11 +81,11 @@ TEST_CASE("what is missing, of the wrong size or no number is refused with its p
   expect_calibration_refused(kSizeLines + kCameraLines, ": distortion_coefficients",
                              {"missing", "4, 5 or 8"});
   expect_calibration_refused(kCameraLines + kLensLines, ": image_width",
-                             {"missing", "no image says it"});
+                             {"missing", "there is no image to take it from"});
   expect_calibration_refused(kSizeLines + kCameraLines + kLensLines, ": image_width",
                              {"640", "the images have 1280"}, 1280, 960);
   expect_calibration_refused("image_width: wide\nimage_height: 3\n" + kCameraLines + kLensLines,
-                             ": image_width", {"no whole number"});
+                             ": image_width", {"a whole number of pixels"});
   expect_calibration_refused("image_width: 0\nimage_height: 3\n" + kCameraLines + kLensLines,
                              ": camera_matrix", {"width is 0"});
   expect_calibration_refused(kSizeLines + kLensLines + "camera_matrix: [ 1, 2, 3 ]\n",
@@ -94,7 +94,7 @@ TEST_CASE("what is missing, of the wrong size or no number is refused with its p
     return kSizeLines + kLensLines + matrix("camera_matrix", 3, 3, numbers);
   };
   expect_calibration_refused(camera("615., 0., 322.3, 0., 611., 238.1"), ": camera_matrix",
-                             {"no matrix", "6 numbers for 3 × 3"});
+                             {"not a matrix", "6 numbers for 3 × 3"});
   expect_calibration_refused(camera("615., 0.5, 322.3, 0., 611., 238.1, 0., 0., 1."),
                              ": camera_matrix", {"skewed by 0.5", "expected 0"});
   expect_calibration_refused(camera("615., 0., 322.3, 0., 611., 238.1, 0., 0., 2."),
@@ -122,7 +122,7 @@ TEST_CASE("what is missing, of the wrong size or no number is refused with its p
                              {"inf", "finite"});
 }
 
-TEST_CASE("files that are no calibrations are refused, wherever they end") {
+TEST_CASE("files that are not calibrations are refused, wherever they end") {
   const TemporaryFolder folder;
   const auto refused = [&](std::string_view bytes, std::string_view message) {
     const auto file = folder.write("camera.yml", bytes);
@@ -130,9 +130,9 @@ TEST_CASE("files that are no calibrations are refused, wherever they end") {
   };
   refused("", "empty");
   refused("\x89PNG\r\n", "");
-  refused("{\"camera_matrix\": 3}", "no image says it");
-  refused("%YAML:1.0\n---\na: [ 1, 2\nb: }\n", "no valid YAML");
-  refused("<?xml version=\"1.0\"?>\n<other>\n", "no valid XML");
+  refused("{\"camera_matrix\": 3}", "there is no image to take it from");
+  refused("%YAML:1.0\n---\na: [ 1, 2\nb: }\n", "invalid YAML");
+  refused("<?xml version=\"1.0\"?>\n<other>\n", "invalid or truncated XML");
   refused("<?xml version=\"1.0\"?>\n<other></other>\n", "its root is <other>");
   refused("%YAML:1.0\n---\na: 1\n", "3 × 3 numbers, as OpenCV writes them");
   expect_bad_input("none.yml", "", [&] { read_calibration(folder / "none.yml"); });

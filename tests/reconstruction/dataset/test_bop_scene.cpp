@@ -117,7 +117,7 @@ TEST_CASE("a scene_camera.json that is damaged is refused") {
                       {"no image id"});
 }
 
-TEST_CASE("an image that is there twice is refused") {
+TEST_CASE("a duplicate image is refused") {
   expect_json_refused("{\"7\": {}, \"7\": {}}", "scene_camera.json:1:13",
                       {"\"7\"", "twice", "remove one"});
   expect_json_refused("{\"7\": {}, \"007\": {}}", "scene_camera.json: \"7\"", {"image 7", "twice"});
@@ -192,7 +192,7 @@ TEST_CASE("an entry of the wrong type or length is refused") {
       "cam_t_w2c", {"2 values", "3 numbers"});
 }
 
-TEST_CASE("intrinsics that are none are refused") {
+TEST_CASE("invalid intrinsics are refused") {
   const auto with_k = [](const std::string& k) {
     return "\"cam_K\": [" + k + "], " + kScale + ", " + kPose;
   };
@@ -203,7 +203,7 @@ TEST_CASE("intrinsics that are none are refused") {
   expect_entry_refused(with_k("50, 0, 0, 0, 60, 0, 4, 3, 1"), "cam_K", {"row by row"});
 }
 
-TEST_CASE("a matrix that is no rotation is refused") {
+TEST_CASE("a matrix that is not a rotation is refused") {
   const auto with_r = [](const std::string& r) {
     return kCamK + ", " + kScale + ", \"cam_R_w2c\": [" + r + "], \"cam_t_w2c\": [0, 0, 0]";
   };
@@ -284,7 +284,7 @@ TEST_CASE("a depth image that is damaged or of 8 bits is refused") {
   expect_refused([&] { load_bop_scene(folder.path()); }, "depth/000007.png", {"8 bits", "16"});
 }
 
-TEST_CASE("a depth range that is none is refused") {
+TEST_CASE("an invalid depth range is refused") {
   SceneFolder folder;
   folder.good_entry().depth();
   expect_refused([&] { load_bop_scene(folder.path(), {3, 0.1}); }, "depth range", {"3", "0.1"});
@@ -324,7 +324,7 @@ TEST_CASE("the recordings look down at the workspace") {
   }
 }
 
-TEST_CASE("photographs without a scene_camera.json are no BOP scene") {
+TEST_CASE("photographs without a scene_camera.json are not a BOP scene") {
   const auto folder = recording("charuco");
   if (!folder) return;
   expect_refused([&] { load_bop_scene(*folder); }, "charuco/scene_camera.json", {"missing"});

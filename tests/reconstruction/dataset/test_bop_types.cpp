@@ -119,7 +119,7 @@ TEST_CASE("models that are missing or damaged are refused") {
   CHECK_THROWS_WITH_AS(damaged.read(), doctest::Contains("obj_000002.ply"), Error);
 }
 
-TEST_CASE("a models_info.json that is none is refused") {
+TEST_CASE("an invalid models_info.json is refused") {
   expect_info_refused("{", "models_info.json:1:2", {"no valid JSON"});
   expect_info_refused("[1]", "models_info.json", {"found [1]", "one entry per model"});
   expect_info_refused(R"({"one": {}})", "models_info.json: \"one\"", {"no model id"});
@@ -127,7 +127,7 @@ TEST_CASE("a models_info.json that is none is refused") {
   expect_info_refused(R"({"1": 5})", "models_info.json: \"1\"", {"found 5", "an object"});
 }
 
-TEST_CASE("symmetries that are none are refused") {
+TEST_CASE("invalid symmetries are refused") {
   const std::string at = "models_info.json: \"1\": symmetries_discrete";
   expect_info_refused(R"({"1": {"symmetries_discrete": 3}})", at, {"found 3", "a list"});
   expect_info_refused(with_discrete("[1, 0, 0, 0, 1, 0, 0, 0, 1]"), at + "[0]",

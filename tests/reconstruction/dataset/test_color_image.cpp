@@ -65,8 +65,8 @@ TEST_CASE("a JPEG is read as it is stored: its EXIF orientation does not turn it
 TEST_CASE("a colour image that is missing or no image is refused") {
   TemporaryFolder folder;
   expect_refused([&] { read_color(folder / "nowhere.png"); }, "nowhere.png", {"o such file"});
-  expect_bytes_refused("", {"none of PNG, JPEG, TIFF, BMP and WebP"});
-  expect_bytes_refused("GIF89a", {"none of PNG, JPEG, TIFF, BMP and WebP"});
+  expect_bytes_refused("", {"not a PNG, JPEG, TIFF, BMP or WebP image"});
+  expect_bytes_refused("GIF89a", {"not a PNG, JPEG, TIFF, BMP or WebP image"});
 }
 
 TEST_CASE("a colour image that ends too early is refused, wherever it is cut") {

@@ -60,7 +60,7 @@ TEST_CASE("all kinds of observations are read, image by image in their order") {
   CHECK(label.sigma_m == 0.01);
 }
 
-TEST_CASE("numbers that are none are read, and named later") {
+TEST_CASE("invalid numbers are read, and reported later") {
   const TemporaryFolder folder;
   for (const char* none : {"null", "\"NaN\"", "\"Infinity\"", "\"-Infinity\""}) {
     CAPTURE(none);

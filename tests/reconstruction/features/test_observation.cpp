@@ -31,13 +31,13 @@ TEST_CASE("faults of points are named") {
   CHECK(fault_of(marker({{0, 0}, {9, 1}, {9, 1}, {-1, 8}})) == "corner 2 is the same as corner 1");
   CHECK(fault_of(marker({{0, 0}, {9, 1}, {8, 9}})) == "a marker with 3 corners");
   CHECK(fault_of(marker({{0, 0}, {9, 1}, {-1, 8}, {8, 9}})) ==
-        "the corners are no convex quadrangle");
+        "the corners do not form a convex quadrilateral");
   CHECK(fault_of(marker({{0, 0}, {9, 0}, {4, 2}, {0, 9}})) ==
-        "the corners are no convex quadrangle");
+        "the corners do not form a convex quadrilateral");
   CHECK(fault_of(marker({{-1, 8}, {8, 9}, {9, 1}, {0, 0}})) ==
-        "the corners go around the wrong way, as if seen from behind");
+        "the corners are in the wrong order, as if seen from behind");
   CHECK(fault_of(marker({{0, 0}, {.5, 0}, {.5, .5}, {0, .5}})) ==
-        "the marker is only 0.25 px² large");
+        "the marker covers only 0.25 px²");
 }
 
 TEST_CASE("a standard deviation is a positive number") {

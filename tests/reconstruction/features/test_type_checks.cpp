@@ -19,7 +19,7 @@ void expect_feature_refused(std::vector<ObjectFeature> features, const std::stri
 
 }  // namespace
 
-TEST_CASE("types that are none are refused") {
+TEST_CASE("invalid types are refused") {
   expect_refused(
       [] {
         MemoryKnowledgeBase({cube_type("a"), cube_type("a")});
@@ -74,7 +74,7 @@ TEST_CASE("two features that are the same in everything are refused, others with
   }
   expect_feature_refused(
       {cube_marker(1), marker_feature({"4X4_250", 1, 0.03, Pose::from_translation({0, 0, 0.025})})},
-      "tin.features[1]", {"aruco 4X4/1 is features[0] once more"});
+      "tin.features[1]", {"aruco 4X4/1 repeats features[0]"});
 }
 
 }  // namespace vantage::test

@@ -49,7 +49,7 @@ TEST_CASE("features of other detectors: points, a pose, a label near points or a
   CHECK(base.with_feature({"color", "red"}).size() == 1);
 }
 
-TEST_CASE("features of other detectors that are none are refused") {
+TEST_CASE("invalid features of other detectors are refused") {
   const auto expect = [](const std::string& keys, std::string_view where,
                          std::initializer_list<std::string_view> parts) {
     expect_type_refused(with_feature(keys), where, parts);

@@ -136,7 +136,7 @@ TEST_CASE("degenerate: one marker alone is an object") {
   for (const Method method : kMethods) CHECK(cell.by(method).objects.size() == 1);
 }
 
-TEST_CASE("degenerate: mirrored corners fit no pose, and are no object") {
+TEST_CASE("degenerate: mirrored corners fit no pose and make no object") {
   Cell cell;
   for (CameraView& view : cell.views) {
     for (Observation& o : view.observations) std::swap(pixels_of(o)[1], pixels_of(o)[3]);
@@ -145,7 +145,7 @@ TEST_CASE("degenerate: mirrored corners fit no pose, and are no object") {
   CHECK(result.objects.empty());
 }
 
-TEST_CASE("degenerate: an observation that is there twice counts once") {
+TEST_CASE("degenerate: a duplicate observation counts once") {
   Cell cell;
   const Reconstruction once = cell.by(reconstruct_pnp);
   REQUIRE(once.objects.size() == 1);
@@ -188,7 +188,7 @@ TEST_CASE("degenerate: one id at two places of an image is never one object's") 
             .m < 1e-9);
 }
 
-TEST_CASE("degenerate: points that are too few or on a line say nothing") {
+TEST_CASE("degenerate: too few or collinear points determine nothing") {
   ObjectType rod = marked_box("rod", {0.2, 0.02, 0.02}, 0, 0);
   for (int i = 0; i < 5; ++i) {
     rod.features.push_back(
@@ -208,7 +208,7 @@ TEST_CASE("degenerate: points that are too few or on a line say nothing") {
   for (const Method method : kMethods) CHECK(cell.by(method).objects.empty());
 }
 
-TEST_CASE("degenerate: random rubbish never crashes, and hardly ever makes an object") {
+TEST_CASE("degenerate: random input never crashes, and rarely makes an object") {
   std::size_t objects = 0, observations = 0;
   for (std::uint32_t seed = 1; seed <= scene_count(60); ++seed) {
     CAPTURE(seed);

@@ -133,7 +133,7 @@ TEST_CASE("depth files of another kind are refused by what they are") {
   };
   refused(".tif", encoded(".tif", cv::Mat(6, 8, CV_8U, cv::Scalar(20))), {"8 bits per pixel"});
   refused(".tif", encoded(".tif", cv::Mat(6, 8, CV_16UC3, cv::Scalar(20, 2, 1))), {"channels"});
-  refused(".tif", "no image", {"no TIFF image"});
+  refused(".tif", "no image", {"not a TIFF image"});
   refused(".npy", npy("<i4", "6, 8", std::string(192, 'a')), {"\"<i4\"", "uint16"});
   refused(".npy", npy("<u2", "48", std::string(96, 'a')), {"(48)", "(height, width)"});
   refused(".npy", npy("<u2", "6, 9", std::string(96, 'a')), {"96 bytes", "expected 108"});

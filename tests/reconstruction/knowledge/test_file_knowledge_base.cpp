@@ -149,7 +149,7 @@ TEST_CASE("a type's mesh is named as a workcell's is") {
   expect_type_refused("{name: a, mesh: .}", "object_types[0].mesh", {"is a folder"});
 }
 
-TEST_CASE("a type that is none is refused") {
+TEST_CASE("an invalid type is refused") {
   expect_type_refused("{name: a}", "types.yaml:2: object_types[0]",
                       {"exactly one of the keys \"shape\", \"mesh\""});
   expect_type_refused("{" + kCubeShape + "}", "object_types[0].name", {"missing"});
@@ -187,7 +187,7 @@ TEST_CASE("names are there once in all of the files") {
                  {"\"a\"", "1.yaml:2: object_types[0]"});
 }
 
-TEST_CASE("what files say of the hierarchy adds up") {
+TEST_CASE("the hierarchies of several files are merged") {
   TemporaryFolder folder;
   const std::string types = type_text("{name: a, is_a: [b], " + kCubeShape + "}");
   const fs::path first = folder.write("1.yaml", types + "hierarchy:\n  b: [c]\n  c: [d]\n");

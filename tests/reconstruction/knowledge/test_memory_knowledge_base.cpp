@@ -84,7 +84,7 @@ TEST_CASE("one marker may be on a type several times") {
   CHECK(MemoryKnowledgeBase({type}).with_feature(marker_key("4X4_50", 1)).size() == 2);
 }
 
-TEST_CASE("what something is goes up through types and through names that are none") {
+TEST_CASE("ancestors are found through types and through names that are not types") {
   const MemoryKnowledgeBase base({cube_type("red_cube", {"cube"}), cube_type("mug", {"container"}),
                                   cube_type("big_red_cube", {"red_cube", "container"})},
                                  {{"cube", {"block", "toy"}}, {"block", {"thing"}}});
@@ -102,7 +102,7 @@ TEST_CASE("what something is goes up through types and through names that are no
   CHECK(base.types_that_are("nobody").empty());
 }
 
-TEST_CASE("two ways up to one ancestor are no circle, and a long way is none, either") {
+TEST_CASE("two paths to one ancestor are not a cycle, and neither is a long path") {
   const MemoryKnowledgeBase diamond({cube_type("a", {"b", "c"})}, {{"b", {"d"}}, {"c", {"d"}}});
   CHECK(diamond.is_a("a", "d"));
   Hierarchy chain;

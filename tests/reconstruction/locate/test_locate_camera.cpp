@@ -81,7 +81,7 @@ TEST_CASE("more markers make the error smaller") {
   }
 }
 
-TEST_CASE("three markers in ten that are read wrongly or moved are found out") {
+TEST_CASE("three misread or moved markers in ten are found") {
   Random random(14);
   for (std::uint32_t scene = 0; scene < scene_count(60); ++scene) {
     CAPTURE(scene);
@@ -113,7 +113,7 @@ TEST_CASE("of two observations of one marker the one that fits is taken") {
   CHECK(pose_distance(found.pose->T_world_cam, board.T_world_cam) < 0.02);
 }
 
-TEST_CASE("a marker that is on the board twice is told by where it is") {
+TEST_CASE("a marker that is on the board twice is told apart by its position") {
   Random random(16);
   SeenBoard board = SeenBoard::grid(4, 2, 0.04, 0.06);
   for (const std::size_t twin : {5, 6}) board.features[twin].key = board.features[0].key;
@@ -124,7 +124,7 @@ TEST_CASE("a marker that is on the board twice is told by where it is") {
   CHECK(pose_distance(found.pose->T_world_cam, board.T_world_cam) < 0.02);
 }
 
-TEST_CASE("two groups of markers that contradict each other are no pose") {
+TEST_CASE("two groups of markers that contradict each other give no pose") {
   Random random(17);
   SeenBoard board = SeenBoard::grid(4, 2, 0.04, 0.06);
   board.look(some_lenses()[0], camera_above(0.7, 0.6, random), 0, random);
@@ -139,7 +139,7 @@ TEST_CASE("two groups of markers that contradict each other are no pose") {
   const CameraLocation found = locate(board);
   CHECK(!found.pose);
   CHECK(found.alternatives.size() == 2);
-  check_parts(found.reason, {"4 markers of the board speak for one pose and 4 others"});
+  check_parts(found.reason, {"4 markers of the board support one pose and 4 others"});
 }
 
 TEST_CASE("no pose without a reason that helps") {

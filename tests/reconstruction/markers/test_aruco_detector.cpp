@@ -196,7 +196,7 @@ TEST_CASE("something dark beside a marker does not drag its corners along") {
   }
 }
 
-TEST_CASE("a marker of which half is covered is none") {
+TEST_CASE("a half covered marker is not detected") {
   PrintedBoard board = board_of("4X4_50", 0.04);
   board.stripes.push_back({-0.2, -0.04, 0.2, 0.04, 0.3});  // over half of each
   CHECK(look(board, {}).found == 0);

@@ -156,7 +156,7 @@ TEST_CASE("PnP: objects in the order of the types, everything else ascending") {
   CHECK(all.size() == observations);
 }
 
-TEST_CASE("PnP: a cancelled run says so, and what it did not look at") {
+TEST_CASE("PnP: a cancelled run says so, and lists what it did not process") {
   const MemoryKnowledgeBase knowledge = boxes();
   Random random(5);
   auto views = cameras_around(random, 2);

@@ -54,7 +54,7 @@ TEST_CASE("PnP: the covariance is true, with cameras that are off as their covar
   expect_true_covariance({.sigma_px = 0.2, .camera_m = 0.001, .camera_rad = 0.002}, 4);
 }
 
-TEST_CASE("PnP: the covariance is true, with cameras that are hardly off") {
+TEST_CASE("PnP: the covariance is true, with cameras that are slightly off") {
   expect_true_covariance({.sigma_px = 0.3, .camera_m = 0.0001, .camera_rad = 0.0002}, 3);
 }
 

@@ -117,7 +117,7 @@ TEST_CASE("PnP: an object that two cameras see from opposite sides is one object
   CHECK(result.objects[0].T_world_object.translation().norm() < 0.001);
 }
 
-TEST_CASE("PnP: a marker read wrongly is no object, and no part of one") {
+TEST_CASE("PnP: a misread marker is neither an object nor a part of one") {
   const MemoryKnowledgeBase knowledge(
       {marked_box("cube", {0.05, 0.05, 0.05}, 0), marked_box("dice", {0.06, 0.06, 0.06}, 6)});
   Random random(9);
@@ -135,7 +135,7 @@ TEST_CASE("PnP: a marker read wrongly is no object, and no part of one") {
   CHECK(result.unexplained[0].reason.find(true_key.value) != std::string::npos);
 }
 
-TEST_CASE("PnP: an object whose other markers nobody sees, although they should, is left out") {
+TEST_CASE("PnP: an object whose other markers should be visible but are not is left out") {
   const MemoryKnowledgeBase knowledge({marked_box("cube", {0.08, 0.08, 0.08}, 0)});
   Random random(2);
   auto views = cameras_around(random, 6, 0.5);

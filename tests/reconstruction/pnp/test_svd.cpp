@@ -109,7 +109,7 @@ TEST_CASE("SVD: what it cannot use has a reason") {
   }
 }
 
-TEST_CASE("SVD: a cancelled run says so, and what it did not look at") {
+TEST_CASE("SVD: a cancelled run says so, and lists what it did not process") {
   Random random(5);
   const MemoryKnowledgeBase knowledge = one_box();
   auto views = cameras_around(random, 2);

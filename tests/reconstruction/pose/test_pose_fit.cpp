@@ -205,7 +205,7 @@ TEST_CASE("a fisheye lens has a continuous image with true derivatives, in front
   }
 }
 
-TEST_CASE("no pose for what is not finite, for sigmas that are none, and for nothing at all") {
+TEST_CASE("no pose for non-finite input, for invalid sigmas, and for no input") {
   Random random(6);
   const SeenBody body(random, 2, 0);
   const Pose start = body.start(random);

@@ -88,7 +88,7 @@ TEST_CASE(
   CHECK(kept <= 1);
 }
 
-TEST_CASE("an object that moved between two pictures is warned of, with the odd picture") {
+TEST_CASE("an object that moved between two pictures causes a warning that names the picture") {
   Random random(4);
   std::uint32_t warned = 0, right_image = 0;
   const std::uint32_t scenes = scene_count(15);

@@ -81,7 +81,7 @@ TEST_CASE("voting: a label decides between types with the same marker") {
   }
 }
 
-TEST_CASE("voting: labels somewhere else, and at another part of the object, say nothing for it") {
+TEST_CASE("voting: labels somewhere else, and at another part of the object, do not support it") {
   ObjectType box = marked_box("box", {0.1, 0.1, 0.1}, 0);
   box.features.push_back({{"color", "red"}, FeatureLabel{{{0, 0, 0.05}}, 0.02}});
   const MemoryKnowledgeBase knowledge({box});

@@ -52,7 +52,7 @@ TEST_CASE("voting: what cannot be used has its reason, and nothing is invented")
   check_accounts(views, lost);
 }
 
-TEST_CASE("voting: bounds that are none are refused") {
+TEST_CASE("voting: invalid bounds are refused") {
   const MemoryKnowledgeBase knowledge;
   expect_bad_input("options: merge_m", "found 0",
                    [&] { reconstruct_voting({}, knowledge, {.merge_m = 0}); });
@@ -60,7 +60,7 @@ TEST_CASE("voting: bounds that are none are refused") {
                    [&] { reconstruct_voting({}, knowledge, {.inlier_px = -1}); });
 }
 
-TEST_CASE("voting: stops when it is told to, with what it has") {
+TEST_CASE("voting: stops when cancelled, with what it has") {
   Random random(7);
   const MemoryKnowledgeBase knowledge({marked_box("cube", kCubeSize, 0)});
   auto views = cameras_around(random, 3);

@@ -91,7 +91,7 @@ TEST_CASE("a photograph has things where OpenCV projects them, with a lens and w
   }
 }
 
-TEST_CASE("lenses that fold the image over, and coefficients that are no numbers, are refused") {
+TEST_CASE("lenses that fold the image over, and coefficients that are not finite, are refused") {
   const auto refused = [](const Distortion& distortion, const char* message) {
     expect_bad_input("distortion", message, [&] { Lens(kLensIntrinsics, distortion); });
     ColorSensor sensor;
@@ -130,7 +130,7 @@ TEST_CASE("random points appear where OpenCV's fisheye lens has them, up to 85°
     const Eigen::Vector2d xy = lens.sight(at.x, at.y, {}).xy;
     CHECK((xy.homogeneous().normalized() - p).norm() < 1e-12);
   }
-  expect_bad_input("distortion", "pixel (0.0, 0.0) looks more than 85° off the optical axis",
+  expect_bad_input("distortion", "pixel (0.0, 0.0) is more than 85° off the optical axis",
                    [&] { lens.sight(0, 0, Eigen::Vector2d::Zero()); });
   ColorSensor sensor;
   sensor.distortion = d;
@@ -148,7 +148,7 @@ TEST_CASE("a fisheye lens that folds over inside the image is refused") {
   refused(Distortion::fisheye(-0.5, 0, 0, 0),
           "k1 to k4 = -0.5, 0, 0, 0 of the fisheye model the image folds over");
   refused({0, 0, 0.1, 0, 0, 0, 0, 0, LensModel::fisheye},
-          "a fisheye lens has coefficients k1 to k4");
+          "a fisheye lens has only the coefficients k1 to k4");
   // It folds farther out than this image reaches.
   CHECK_NOTHROW(Lens({640, 480, 900, 900, 320, 240}, Distortion::fisheye(-0.5, 0, 0, 0)));
 }

@@ -73,7 +73,7 @@ TEST_CASE("mass properties: meshes without an inside are refused") {
 
   triangles = box.triangles();
   triangles.pop_back();
-  expect_bad_input("mesh", "it is open: a hole of about 0.005 m²", [&] {
+  expect_bad_input("mesh", "its surface is open: it has a hole of about 0.005 m²", [&] {
     mass_properties({box.vertices(), triangles});
   });
 }

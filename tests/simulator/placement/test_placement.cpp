@@ -143,7 +143,7 @@ TEST_CASE("placement: bodies keep off what is fixed, and may stand in its hollow
   CHECK(in_hollow >= 1);
 }
 
-TEST_CASE("placement: as many bodies stand upright as one asks for") {
+TEST_CASE("placement: the requested share of bodies stands upright") {
   const Bodies rods(30, shared(rod(0.008, 0.06, 16)));  // by itself one in seventy stands
   const Box field({0, 0, 0}, {1, 1, 1});
   CHECK(count_upright(place_at_rest(rods, {}, {field, 1, 0.002, 1})) == 30);
@@ -177,14 +177,14 @@ TEST_CASE("placement: when there is no room it says how many are placed") {
   const auto error = caught([&] { place_at_rest(cubes, {}, {tray, 1}); });
   REQUIRE(error);
   CHECK(error->where() == "area");
-  check_parts(error->message(), {"of 9 bodies are placed", "0.12 x 0.1 m", "widen the area"});
+  check_parts(error->message(), {"of 9 bodies were placed", "0.12 x 0.1 m", "Enlarge the area"});
   const int placed = error->message()[0] - '0';
   CHECK(placed >= 1);
   CHECK(placed <= 3);
   CHECK(place_at_rest(std::span(cubes).first(std::size_t(placed)), {}, {tray, 1}).size() ==
         std::size_t(placed));
 
-  expect_bad_input("area", "0 of 1 bodies are placed", [] {
+  expect_bad_input("area", "0 of 1 bodies were placed", [] {
     place_at_rest(Bodies{shared(cuboid(0.3, 0.3, 0.3))}, {}, {Box({0, 0, 0}, {0.2, 0.2, 1})});
   });
 }

@@ -185,7 +185,7 @@ TEST_CASE("carving a far away work area loses no precision") {
   }
 }
 
-TEST_CASE("without lattices everything is shadow that nobody saw") {
+TEST_CASE("without lattices everything is unseen shadow") {
   const GridGeometry geometry = GridGeometry::covering(test::random_workcell_area(), 0.013);
   const auto grid = carve({}, geometry, {});
   CHECK(grid->count(VoxelState::shadow) == geometry.voxel_count());

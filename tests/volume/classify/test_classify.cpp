@@ -202,7 +202,7 @@ TEST_CASE("classify gives the same at 1, 2, 3 and 8 threads") {
   }
 }
 
-TEST_CASE("classify stops when it is told to, after it has checked its input") {
+TEST_CASE("classify stops when cancelled, after it has checked its input") {
   WorldModel world = test::random_workcell(1);
   const StopToken stop;
   stop.cancel();

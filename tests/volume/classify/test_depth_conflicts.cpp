@@ -91,7 +91,7 @@ TEST_CASE("a correct pose is in no conflict, with clean depth and with noisy dep
   CHECK(grid->report().conflicts[0].of_voxels == 6 * 4 * 8);
 }
 
-TEST_CASE("single pixels that see through an object are no conflict, a missing object is one") {
+TEST_CASE("single pixels that see through an object are not a conflict, a missing object is one") {
   const test::TurnedBox box = aligned_box({0.02, 0, 0.06});
   DepthImage spotted = *measured({box});
   int spots = 0;

@@ -147,7 +147,7 @@ TEST_CASE("three states and nothing else fill the work area in every mode") {
   }
 }
 
-TEST_CASE("moving world, cameras and work area by whole voxels changes nothing, far out neither") {
+TEST_CASE("moving world, cameras and work area by whole voxels changes nothing, even far out") {
   for (const VolumeOptions& options : test::all_volume_modes()) {
     for (std::uint32_t seed = 0; seed < 6; ++seed) {
       CAPTURE(seed);

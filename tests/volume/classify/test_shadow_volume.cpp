@@ -254,7 +254,7 @@ TEST_CASE("a volume refuses images and cameras that do not fit, and stays as it 
   test::expect_same_grid(*before, *volume.grid());
 }
 
-TEST_CASE("a volume that was told to stop stays without a grid") {
+TEST_CASE("a volume that was stopped stays without a grid") {
   const StopToken stop;
   stop.cancel();
   const ShadowVolume volume(test::random_workcell(1), test::small_grid(), {}, stop);

@@ -8,7 +8,7 @@
 
 namespace vantage::volume::detail {
 
-TEST_CASE("blocks may be set as often as one likes, whatever they were before") {
+TEST_CASE("blocks may be set repeatedly, whatever they were before") {
   const BlockLayout layout(GridGeometry::covering(Box({0, 0, 0}, {0.7, 0.37, 0.4}), 0.01));
   BlockSet set(layout), other(layout);
   std::map<std::size_t, BlockBits> expected;

@@ -22,7 +22,7 @@ TEST_CASE("volume options: the defaults are valid, and so are a sensor and a ban
   CHECK_NOTHROW(exact.check());
 }
 
-TEST_CASE("volume options: what is no number or out of range is refused, by its key") {
+TEST_CASE("volume options: values that are not finite or out of range are refused, by their key") {
   for (const double bad :
        {-1.0, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()}) {
     VolumeOptions options;

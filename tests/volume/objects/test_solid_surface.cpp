@@ -84,7 +84,7 @@ TEST_CASE("a solid whose faces all look both ways is solid") {
   expect_as_closed(with_triangles(ball, turned(ball.triangles())), ball);
 }
 
-TEST_CASE("a solid of which one face looks both ways, or is there twice, is solid") {
+TEST_CASE("a solid with one doubled face, or one face with both orientations, is solid") {
   const TriangleMesh box = box_mesh();
   const std::vector<Triangle> lid = {box.triangles()[2], box.triangles()[3]};
   expect_as_closed(with_triangles(box, turned(lid)), box);
@@ -122,7 +122,7 @@ TEST_CASE("a vertex on a neighbour's edge changes nothing") {
   expect_as_closed(hanging, box);
 }
 
-TEST_CASE("a scan without a bottom is solid, with a warning that says how sure that is") {
+TEST_CASE("a scan without a bottom is solid, with a warning that says how certain that is") {
   const TriangleMesh box = box_mesh();
   const TriangleMesh scan = without_triangles(box, {0, 1});
   const auto grid = grid_with(scan), whole = grid_with(box);

@@ -138,7 +138,7 @@ TEST_CASE("depth in another scale, in whole metres, or without readings is named
     counts.change_depths([](double depth) { return 0.001 * std::max(1.0, std::round(depth)); });
     CHECK(says(counts.finding(), "1000 times larger"));
     empty.change_depths([](double) { return 0.0; });
-    CHECK(says(empty.finding(), "no reading at all"));
+    CHECK(says(empty.finding(), "no valid reading"));
   }
 }
 

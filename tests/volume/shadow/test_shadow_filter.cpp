@@ -193,7 +193,7 @@ TEST_CASE("shadow filters: threads make no difference, and bad sizes are refused
   }
 }
 
-TEST_CASE("planning takes thin shadow for free where depth is noisy, and says how much") {
+TEST_CASE("planning treats thin shadow as free where depth is noisy, and reports how much") {
   // A thick ball, and a layer on the floor.
   const auto inside = ball({12, 12, 14}, 5);
   const auto grid = shadow_where(geometry_of(24, 24, 24), [&](const Eigen::Vector3i& voxel) {

@@ -80,7 +80,7 @@ TEST_CASE("shadow regions equal a plain search, from dust to one lump") {
   }
 }
 
-TEST_CASE("voxels hang together through faces only, across blocks too") {
+TEST_CASE("voxels are connected through faces only, across blocks too") {
   // Two cubes that touch at an edge, at the border of four blocks; a third one touches a corner.
   const auto in = [](const Eigen::Vector3i& v, int x, int y, int z) {
     return v.x() / 4 == x && v.y() / 4 == y && v.z() / 4 == z;

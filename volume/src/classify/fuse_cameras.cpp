@@ -47,7 +47,8 @@ void put(openvdb::tree::ValueAccessor<openvdb::MaskTree>& tree, const openvdb::C
   tree.addLeaf(leaf.release());
 }
 
-/// Brings the marked blocks of a tree up to date. The tree is then as if it were filled anew.
+/// Brings the marked blocks of a tree up to date. The tree is then as if it had been filled from
+/// scratch.
 /// @returns how many voxels more it has.
 template <class BitsOf>
 std::int64_t update_tree(const BlockLayout& layout, const std::vector<std::uint8_t>& marked,

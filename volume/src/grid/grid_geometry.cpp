@@ -17,12 +17,11 @@ GridGeometry GridGeometry::covering(const Box& work_area, double voxel_size_m) {
   const Eigen::Array3d counts =
       (work_area.size().array() / voxel_size_m + (0.5 + 1e-9)).floor().max(1.0);
   if (!(counts.prod() <= kMaxVoxels)) {
-    throw Error(
-        ErrorCode::out_of_resources, "voxel size",
-        fmt::format("{} m gives {:.3g} voxels in the work area of {:.3g} m³; at most {:.3g} "
-                    "are handled: use {:.2g} m or more, or a smaller work area",
-                    voxel_size_m, counts.prod(), work_area.volume_m3(), kMaxVoxels,
-                    std::cbrt(work_area.volume_m3() / kMaxVoxels) * 1.05));
+    throw Error(ErrorCode::out_of_resources, "voxel size",
+                fmt::format("{} m gives {:.3g} voxels in the work area of {:.3g} m³; the limit is "
+                            "{:.3g}: use {:.2g} m or more, or a smaller work area",
+                            voxel_size_m, counts.prod(), work_area.volume_m3(), kMaxVoxels,
+                            std::cbrt(work_area.volume_m3() / kMaxVoxels) * 1.05));
   }
   return {work_area.min(), voxel_size_m, counts.cast<int>().matrix()};
 }

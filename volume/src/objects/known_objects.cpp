@@ -23,10 +23,9 @@ std::optional<std::string> open_mesh_warning(const KnownObject& object,
   if (topology.sheets.empty() && share < kHardlyAny) return std::nullopt;
   std::string text = fmt::format(
       "object {}: its mesh is not closed ({} of its {} edges belong to an odd number of "
-      "triangles); "
-      "its inside is where its winding number is above one half, which is ambiguous (0.25 to 0.75) "
-      "for {:.0f} % of the voxels in question; {} of its {} triangles are sheets that bound no "
-      "inside: close the mesh if it is meant to be solid",
+      "triangles); its inside is where its winding number is above one half, which is ambiguous "
+      "(0.25 to 0.75) for {:.0f} % of the voxels in question; {} of its {} triangles are sheets "
+      "that enclose nothing: close the mesh if it is meant to be solid",
       object.name, topology.unmatched_edges, topology.edges.size(), 100 * share,
       topology.sheets.size(), topology.solid->triangles.size());
   if (object.mesh->dropped_degenerate() > 0) {
@@ -36,18 +35,17 @@ std::optional<std::string> open_mesh_warning(const KnownObject& object,
   return text;
 }
 
-/// What is odd about a mesh wherever it stands.
+/// What is wrong with a mesh, independent of its pose.
 void add_mesh_warnings(const KnownObject& object, const MeshTopology& topology,
                        std::vector<std::string>& warnings) {
   for (const std::string& remark : object.mesh->remarks()) {
     warnings.push_back(fmt::format("object {}: {}", object.name, remark));
   }
   if (topology.solid == nullptr || topology.solid->unexplained_pairs == 0) return;
-  warnings.push_back(
-      fmt::format("object {}: {} faces of its mesh look both ways and could not be told apart, so "
-                  "that parts of "
-                  "it may have lost their inside; remove the double faces",
-                  object.name, topology.solid->unexplained_pairs));
+  warnings.push_back(fmt::format(
+      "object {}: {} faces of its mesh exist twice with opposite normals and could not be told "
+      "apart, so parts of it may have lost their inside; remove the double faces",
+      object.name, topology.solid->unexplained_pairs));
 }
 
 using Topologies = std::map<const TriangleMesh*, std::shared_ptr<const MeshTopology>>;

@@ -24,7 +24,7 @@ struct FacePlane {
   double offset;
 };
 
-/// How the triangles of a mesh hang together. Vertices at the very same place are one: STL files
+/// How the triangles of a mesh are connected. Vertices at the very same place are one: STL files
 /// and textured meshes repeat them.
 struct MeshTopology {
   std::vector<MeshEdge> edges;

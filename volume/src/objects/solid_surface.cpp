@@ -122,8 +122,8 @@ Faces sorted_faces(const std::vector<Triangle>& triangles) {
   return faces;
 }
 
-/// Decides which of the paired faces stay, and how they look: part by part, a part being what hangs
-/// together by edges that have just two of them.
+/// Decides which of the paired faces stay, and how they look: part by part, a part being what is
+/// connected by edges that have exactly two of them.
 class PairedFaces {
  public:
   PairedFaces(SolidSurface& surface, const Faces& faces) : surface_(surface), faces_(faces) {

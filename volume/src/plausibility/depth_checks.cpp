@@ -48,7 +48,7 @@ std::optional<double> coarse_step(const std::vector<DepthSample>& samples, doubl
   const bool multiples = std::ranges::all_of(values, [&](double value) {
     return std::abs(value / step - std::round(value / step)) < 0.01;
   });
-  // Planes that face the camera give few values, too, but hardly multiples of one step.
+  // Planes that face the camera give few values, too, but these are rarely multiples of one step.
   const bool whole = std::abs(step - std::round(step)) < kAlike && step > 0.5;
   return multiples && (whole || values.size() >= 4) ? std::optional(step) : std::nullopt;
 }
@@ -92,10 +92,10 @@ Share share_of(const std::vector<DepthSample>& samples) {
   return share;
 }
 
-/// What is odd about one image; empty if nothing is.
+/// What is wrong with one image; empty if nothing is.
 std::string oddity(const SampledCamera& camera, double voxel_size_m) {
   const std::vector<DepthSample>& samples = camera.depths;
-  if (samples.empty()) return "the depth image has no reading at all";
+  if (samples.empty()) return "the depth image has no valid reading";
   const auto [least, most] = std::ranges::minmax(samples, {}, &DepthSample::depth_m);
   const DepthRange range = camera.camera->camera.range();
   const auto usable = std::ranges::count_if(samples, [&](const DepthSample& sample) {

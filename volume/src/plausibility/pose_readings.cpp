@@ -9,7 +9,7 @@ constexpr std::array kReadings = {
     PoseReading{"camera-to-world poses were given where world-to-camera is expected; invert them",
                 true, false, 1},
     PoseReading{"the poses have OpenGL's axes (y up, looking along -z) where OpenCV's are expected "
-                "(x right, y down, z forward); turn y and z round",
+                "(x right, y down, z forward); flip y and z",
                 false, true, 1},
     PoseReading{"camera-to-world poses with OpenGL's axes (y up, looking along -z) were given, as "
                 "rendering tools write them, where world-to-camera with x right, y down, z forward "

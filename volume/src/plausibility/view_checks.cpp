@@ -50,7 +50,7 @@ void check_views(const std::vector<SampledCamera>& cameras, const Box& work_area
     // A long recording has images that look elsewhere; each of a few cameras should see something.
     if (cameras.size() > kFewCameras) blind.clear();
     for (const SampledCamera* camera : blind) {
-      findings.push_back(fmt::format("image {}: nothing of the work area lies in it: {}",
+      findings.push_back(fmt::format("image {} shows nothing of the work area: {}",
                                      camera->camera->name, cause_of({camera}, work_area)));
     }
     std::vector<const SampledCamera*> all;
@@ -97,7 +97,7 @@ std::string resolution_misfit(const Intrinsics& k) {
   if (!turned) return {};
   return fmt::format(
       "the principal point ({:.6g}, {:.6g}) is the middle of an image of {} x {} pixels, and this "
-      "one has {} x {}: was the picture turned by 90 degrees?",
+      "one has {} x {}: was the picture rotated by 90 degrees?",
       k.cx, k.cy, k.height, k.width, k.width, k.height);
 }
 

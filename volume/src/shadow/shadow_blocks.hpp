@@ -10,7 +10,7 @@
 
 namespace vantage::volume::detail {
 
-/// A block of 8³ voxels with those that are on, split into components: voxels that hang together by
+/// A block of 8³ voxels with those that are on, split into components: voxels that are connected by
 /// faces inside the block. Components are numbered through all blocks.
 struct ShadowBlock {
   openvdb::Coord origin;
@@ -37,7 +37,7 @@ class ShadowBlocks {
   const std::vector<ShadowBlock>& list() const { return list_; }
   std::uint32_t component_count() const { return component_count_; }
 
-  /// For each component, the lowest one among all that hang together with it across blocks.
+  /// For each component, the lowest one among all that are connected with it across blocks.
   std::vector<std::uint32_t> connected() const;
 
   using Accessor = openvdb::tree::ValueAccessor<const openvdb::Int32Tree>;
@@ -54,11 +54,11 @@ class ShadowBlocks {
   openvdb::Int32Tree number_at_{-1};  ///< in the list, by the block's place among blocks
 };
 
-/// Voxels of `within` that hang together by faces with those of `seed` inside the block; bits
+/// Voxels of `within` that are connected by faces with those of `seed` inside the block; bits
 /// spread by shifts, all voxels at once.
 BlockWords flooded(const BlockWords& seed, const BlockWords& within);
 
-/// The voxels of a block, split into those that hang together by faces inside the block, in the
+/// The voxels of a block, split into those that are connected by faces inside the block, in the
 /// order of their first voxels. There are at most 256.
 std::vector<BlockWords> local_components(const BlockWords& words);
 

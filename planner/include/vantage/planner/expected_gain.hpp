@@ -10,21 +10,21 @@ namespace vantage {
 
 /// Which number the voxel method scores a view by.
 enum class ViewValue {
-  expected,  ///< the volume that the movable camera will really turn from shadow to free or
+  expected,  ///< the volume that the movable camera is expected to turn from shadow to free or
              ///< occupied
-  bound,  ///< the shadow that it has in sight, if it measures everything and nothing unknown is in
+  bound,  ///< the shadow in its line of sight, if it measures everything and nothing unknown is in
           ///< the way: the thesis' number, and an upper bound of the other
 };
 
-/// From what the expected gain of a view is reckoned (`ExpectedScorer`).
+/// What the expected gain of a view is computed from (`ExpectedScorer`).
 struct ExpectedGainOptions {
   /// Of the movable camera. `StereoSensor::ideal()` measures whatever it has in sight.
   StereoSensor sensor = {};
 
-  /// How deep things are of which cameras have measured the front, but that no model knows, as a
-  /// multiple of how wide they look, the narrower way: a shadow voxel at s behind the front of a
-  /// thing w wide is inside of it with probability exp(-(s / (unknown_depth w))²). The default is
-  /// from simulated cells (`vantage evaluate expected-gain`). 0: nothing unknown stands anywhere.
+  /// Assumed depth of unknown objects whose front was measured, as a multiple of their visible
+  /// width (the smaller one): a shadow voxel at s behind the front of a thing w wide is inside of
+  /// it with probability exp(-(s / (unknown_depth w))²). The default is from simulated cells
+  /// (`vantage evaluate expected-gain`). 0: there are no unknown objects.
   double unknown_depth = 0.8;
 
   /// Height of the floor, world frame, of which the given images tell how often it gives a reading;

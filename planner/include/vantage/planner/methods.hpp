@@ -52,9 +52,9 @@ struct MeshMethod {
   double depth_power = 6;  ///< as the shadow method's
   int image_width = 160;   ///< of the images that views are scored by; their height follows
 
-  /// Up to so many views, servo iterations included, all are scored by rays. Of more, the voxel
-  /// method in a carved grid (by depth: the shadow method) picks a shortlist, and only that is
-  /// scored: the best view may be missed then.
+  /// Up to this many views, servo iterations included, all are scored by rays. If there are more,
+  /// the voxel method in a carved grid (by depth: the shadow method) picks a shortlist, and only
+  /// that is scored: the best view may then be missed.
   int exact_views = 40000;
   int shortlist = 100;
   double shortlist_voxel_m = 0.0047;

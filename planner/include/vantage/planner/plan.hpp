@@ -46,7 +46,7 @@ struct PlanRequest {
   SearchOptions search = {};
   ViewSequenceOptions views = {};
   /// How the work area is classified, what hides from a new view, and how noisy depths are: its
-  /// `noise` is the only noise model of a request, and a D435's unless you say your sensor's.
+  /// `noise` is the only noise model of a request, and a D435's unless you set your sensor's.
   VolumeOptions volume = {};
 
   /// `gain` over the floor of the constraints, which it is reckoned with.
@@ -63,7 +63,7 @@ struct NextView {
   std::uint64_t revealed_voxels = 0;  ///< in sight, of the shadow that the views before it left
 };
 
-/// The answer. With `stopped` other than none it is partial: the best of what was finished, not
+/// The result. With `stopped` other than none it is partial: the best of what was finished, not
 /// polished if that was not; if not even the classification was finished, both grids are null.
 struct Plan {
   PlanRequest request;  ///< as it was used
@@ -74,7 +74,7 @@ struct Plan {
   std::vector<ScoredStep> trace = {};            ///< the best one's servo iterations; if it was
                                                  ///< polished, last where that led
   std::vector<NextView> views = {};              ///< the first is `ranked.front()`
-  std::size_t finished = 0;  ///< candidates: rejected, scored, surpassed, passed over
+  std::size_t finished = 0;  ///< candidates: rejected, scored, surpassed or pruned
   /// As the given cameras left it, without what `VolumeOptions::filter` took away.
   std::shared_ptr<const StateGrid> classified = {};
   std::shared_ptr<const StateGrid> grid = {};  ///< with what all of `views` reveal
@@ -82,7 +82,7 @@ struct Plan {
   double classify_s = 0;
   double score_s = 0;
   /// The scorers and the scene that it was made with, which explanations go on using: immutable,
-  /// and shared by copies of the plan. It may be large; without it (reset it) they are made anew.
+  /// and shared by copies of the plan. It may be large; without it (reset it) they are made again.
   std::shared_ptr<const planner::detail::PlannerContext> context = {};
 
   const RankedView* best() const { return ranked.empty() ? nullptr : &ranked.front(); }
@@ -96,14 +96,14 @@ struct Plan {
   }
 };
 
-/// Finds the view that a method likes best, and if more are asked for, those to take after it:
+/// Finds the view that a method scores best and, if more are asked for, the views to take after it:
 /// classify, take away false shadow (`without_false_shadow`), generate candidates, reject those
 /// that cannot be, search, polish the best.
 ///
 /// Further views are chosen greedily by their joint gain. The voxel method's gain is submodular, so
 /// that what k views reveal is at least 1 - 1/e of the most that any k of the candidates (and their
 /// servo iterations) can (G. Nemhauser, L. Wolsey and M. Fisher, 1978); earlier gains bound later
-/// ones, which is what makes it fast (M. Minoux, 1978). Other methods search anew in the shadow
+/// ones, which is what makes it fast (M. Minoux, 1978). Other methods search again in the shadow
 /// that the views before left. Each further view is polished, too, which only adds to its gain.
 ///
 /// Runs in the caller's task arena; the plan is the same at any number of threads, but for times.
@@ -127,7 +127,7 @@ struct RegionGain {
   std::uint64_t voxels = 0, revealed = 0;
 };
 
-/// Why a candidate has the score that it has.
+/// Explains a candidate's score.
 struct ViewExplanation {
   ViewCandidate candidate;
   InvalidReason rejected = InvalidReason::none;  ///< if there is one, the rest is empty

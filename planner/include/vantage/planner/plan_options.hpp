@@ -18,16 +18,16 @@ struct ServoOptions {
 
 /// Which views are polished after a search, and how (`ViewPolisher`).
 struct PolishOptions {
-  int views = 2;          ///< so many of the best; 0: none
+  int views = 2;          ///< number of top views to polish; 0: none
   int image_width = 160;  ///< of the images that tries are scored on, at most the camera's
 
   /// @throws Error bad_input unless 0 <= views <= 1000 and 16 <= image_width <= 16384.
   VANTAGE_API void check() const;
 };
 
-/// What a journey costs: a view's score counts exp(-weight · distance) times, with the straight
-/// distance from where the camera is (H. Gonzalez-Banos and J.-C. Latombe, "Navigation strategies
-/// for exploring indoor environments", 2002).
+/// The cost of travel: a view's score is multiplied by exp(-weight · distance), with the
+/// straight-line distance from the camera's position (H. Gonzalez-Banos and J.-C. Latombe,
+/// "Navigation strategies for exploring indoor environments", 2002).
 struct TravelCost {
   double weight_per_m = 0;
   Eigen::Vector3d from_m = Eigen::Vector3d::Zero();  ///< where the camera is now
@@ -36,19 +36,19 @@ struct TravelCost {
   VANTAGE_API void check() const;
 };
 
-/// How the best view is looked for (`ViewSearch`).
+/// How the best view is searched for (`ViewSearch`).
 struct SearchOptions {
-  int ranked = 10;  ///< so many of the best are found for certain, in their order
+  int ranked = 10;  ///< number of exactly ranked top candidates
   std::optional<TravelCost> travel = {};
 
   /// @throws Error bad_input unless 1 <= ranked, and as `TravelCost::check` does.
   VANTAGE_API void check() const;
 };
 
-/// How many views are to be planned, one after the other, and when it is enough.
+/// How many views to plan, one after the other, and when to stop.
 struct ViewSequenceOptions {
   int most = 1;
-  double min_gain_m3 = 0;        ///< a further view that is to reveal less is not worth it
+  double min_gain_m3 = 0;        ///< planning stops before a further view that would reveal less
   double min_gain_share = 0.01;  ///< the same as a share of all shadow, 0 to 1
 
   /// @throws Error bad_input unless 1 <= most <= 1000, and for gains that are negative or not

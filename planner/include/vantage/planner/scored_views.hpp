@@ -16,9 +16,9 @@
 
 namespace vantage {
 
-// What came of the candidates of a search, and of the views that a plan chose from them.
+// Results of the candidates of a search, and of the views that a plan chose from them.
 
-/// What came of one servo iteration.
+/// How a servo iteration moved the camera.
 enum class ServoMove : std::uint8_t {
   start,   ///< the candidate itself
   aim,     ///< turned towards the middle of the shadow
@@ -57,12 +57,12 @@ inline std::string_view rejection_text(InvalidReason reason, std::string_view ch
   return by_check ? check_says : to_text(reason);
 }
 
-/// A candidate and what came of it.
+/// A candidate and its result.
 struct ScoredCandidate {
   ViewCandidate view;
   InvalidReason rejected = InvalidReason::none;
   ScoreBound score = {};        ///< the best of its servo iterations, before travel; at most that
-  int servo_iteration = 0;      ///< of the best one; of use if the score is exact
+  int servo_iteration = 0;      ///< of the best one; valid if the score is exact
   std::string check_says = {};  ///< what a `ViewCheck` said, if that rejected it
 
   /// Why it was rejected, in words.
@@ -82,7 +82,7 @@ struct RankedView {
                               ///< after `polish`, where that led
   int servo_iteration = 0;
   Score score = 0;
-  Score utility = 0;                                  ///< the score, less what the journey costs
+  Score utility = 0;                                  ///< the score after travel cost
   std::optional<std::uint64_t> revealed_voxels = {};  ///< shadow in sight; set by a plan
   std::optional<GainEstimate> gain = {};              ///< what of it to expect; set by a plan
   std::vector<PolishStep> polish = {};                ///< from the servo iteration on; by a plan

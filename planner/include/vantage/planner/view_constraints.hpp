@@ -16,7 +16,7 @@
 
 namespace vantage {
 
-/// Where the robot can bring the camera's centre: a spherical shell around its base, world frame.
+/// Where the robot can move the camera's centre: a spherical shell around its base, world frame.
 struct Reach {
   Eigen::Vector3d base_m = Eigen::Vector3d::Zero();
   double min_m = 0;
@@ -26,7 +26,7 @@ struct Reach {
   VANTAGE_API void check(std::string_view where) const;
 };
 
-/// Which cells of a grid in space the robot can bring the camera's centre to; none outside it.
+/// The cells of a grid in space that the robot can move the camera's centre to; none outside it.
 struct ReachMap {
   Eigen::Vector3d origin_m = Eigen::Vector3d::Zero();  ///< lower corner of cell (0, 0, 0), world
   double cell_m = 0;
@@ -38,7 +38,7 @@ struct ReachMap {
   VANTAGE_API void check(std::string_view where) const;
 };
 
-/// Limits where the camera may look: its optical axis is within `half_angle_rad` of `axis`.
+/// Limits the viewing direction: its optical axis is within `half_angle_rad` of `axis`.
 struct ViewCone {
   Eigen::Vector3d axis = {0, 0, -1};  ///< world frame; any length but zero
   double half_angle_rad = 0;
@@ -65,8 +65,8 @@ using CameraBody = std::variant<std::monostate, SphereBody, BoxBody>;
 /// that frame.
 VANTAGE_API BoxBody d435_body();
 
-/// A test of the caller's own of whether the camera can be at a pose, by inverse kinematics, say,
-/// or by a collision check: nothing if it can, else why not, e.g. "no joint angles reach it".
+/// The caller's own test of whether the camera can be at a pose, e.g. by inverse kinematics or a
+/// collision check: nothing if it can, else the reason, e.g. "no joint angles reach it".
 ///
 /// It is called from several threads at once, for the same pose more than once, and in an order
 /// that depends on the threads: it must be thread-safe, and its answer must depend on the pose
@@ -78,15 +78,15 @@ using ViewCheck = std::function<std::optional<std::string>(const Pose& T_world_c
 VANTAGE_API ViewCheck view_check(std::function<bool(const Pose& T_world_cam)> feasible,
                                  std::string reason);
 
-/// Where the camera may be. All limits apply at once. By default it has the body of a D435, which
-/// stays 20 mm away from everything that is there and out of what nobody has seen.
+/// Where the camera may be. All limits apply at once. By default the camera has the body of a D435,
+/// which stays 20 mm away from everything occupied and out of unseen volume.
 struct ViewConstraints {
   std::optional<Reach> reach = {};
   std::optional<Box> reach_box = {};               ///< world frame
   std::shared_ptr<const ReachMap> reach_map = {};  ///< null: none
   std::optional<ViewCone> view_cone = {};
-  /// Least distance of the body from all that is occupied, and from the floor. Not from
-  /// shadow, which is occupied only perhaps: the body must not overlap it, but may be beside it.
+  /// Minimum distance of the body from everything occupied, and from the floor. Shadow is only
+  /// possibly occupied: the body must not overlap it, but may touch it.
   double clearance_m = 0.02;
   CameraBody body = d435_body();
   std::optional<double> floor_z_m = 0.0;  ///< height of the floor, world frame; none: no floor
@@ -94,8 +94,8 @@ struct ViewConstraints {
   /// iteration and every step of polishing, of the first view and of those after it.
   std::vector<ViewCheck> checks = {};
 
-  /// No body and no clearance: a point that is outside of everything, as the thesis has it. What
-  /// comes of it is for a simulation, or for a caller who knows where the camera fits.
+  /// No body and no clearance: a point that is outside of everything, as the thesis has it. The
+  /// result is for simulations, or for callers who know where the camera fits.
   VANTAGE_API static ViewConstraints bare();
 
   /// @throws Error bad_input as its parts do; for a clearance or a radius that is negative or not

@@ -15,11 +15,11 @@ namespace vantage {
 /// sums do not depend on the order in which threads add.
 using Score = std::uint64_t;
 
-/// What is known of a view's score.
+/// What is known about a view's score.
 struct ScoreBound {
   enum class Known : std::uint8_t {
     nothing,  ///< it was stopped before anything was known
-    pruned,   ///< not scored: a cheaper method let others go before; `score` is of no use
+    pruned,   ///< not scored: a cheaper method preferred others; `score` is undefined
     at_most,  ///< `score` is a certified upper bound
     exact,
   };
@@ -30,7 +30,7 @@ struct ScoreBound {
   bool operator==(const ScoreBound&) const = default;
 };
 
-/// One of the figures that a score is made of, for people: "voxels in view", 312, "".
+/// One of the numbers that a score is made of, for reports: "voxels in view", 312, "".
 struct ScoreTerm {
   std::string_view name;
   double value = 0;
@@ -40,7 +40,7 @@ struct ScoreTerm {
 /// A method of scoring views (thesis 7.1 to 7.4): the larger the score, the better the view.
 ///
 /// Immutable; every method may be called from many threads at once. Work on one call is not split
-/// over threads: whoever scores many views does that. An exact score does not depend on what else
+/// over threads: callers that score many views do that. An exact score does not depend on what else
 /// is asked, nor on `needed`; bounds may.
 class VANTAGE_API ViewScorer {
  public:

@@ -25,8 +25,8 @@ constexpr Score kCertain = 255;  // what a voxel counts that is certain to be re
 // expected-gain`). Doubt is p (1 - p), summed over the voxels, in whole ones.
 constexpr double kOfGain = 0.25, kOfDoubt = 1.7, kVoxels = 14;
 
-// So many of the voxels in sight are looked at closer, evenly spread over all of them; the others
-// are like these. The mean of so many is right to two or three percent.
+// Number of voxels in sight that are examined in detail, evenly spread over all of them; the others
+// are taken to be alike. Their mean is right to two or three percent.
 constexpr std::size_t kSamples = 384;
 
 /// What a view is to gain, in 255ths of a voxel.

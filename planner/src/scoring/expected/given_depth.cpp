@@ -15,7 +15,7 @@ namespace {
 constexpr int kColumns = 160;       // of a thinned-out image, about
 constexpr int kPixelStep = 2;       // of it, where every pixel would tell the same
 constexpr float kEdge = 0.04f;      // neighbours whose depths differ by more belong to two things
-constexpr double kLargestM = 0.3;   // what looks wider is a wall, and nobody looks behind it
+constexpr double kLargestM = 0.3;   // what looks wider is a wall, and is not expected to end
 constexpr float kJump = 1.2f;       // neighbours with depths of a larger ratio are not one surface
 constexpr double kTolerance = 3;    // σ
 constexpr double kFloorM = 0.02;    // of models of the floor

@@ -9,7 +9,7 @@ namespace vantage::planner::detail {
 namespace {
 
 constexpr int kSteps = 32;  // along a ray through the unseen volume
-// Of those rays that something unknown stops, so many have a reading: the rest meet it at too flat
+// Share of the rays stopped by something unknown that have a reading: the rest meet it at too flat
 // an angle, or where one of the sensor's other devices does not see it.
 constexpr double kUnknownReading = 0.85;
 constexpr double kBehind = 1.02;       // of the depth of a background that is measured roughly

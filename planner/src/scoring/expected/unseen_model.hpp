@@ -14,7 +14,7 @@
 
 namespace vantage::planner::detail {
 
-/// Cubes of some voxels each, over the work area: fine enough for what is only reckoned with.
+/// Cubes of a few voxels each, over the work area: fine enough for estimates.
 struct ShadowCells {
   Eigen::Vector3d origin;
   double voxel_m, cell_m;
@@ -59,14 +59,14 @@ class FloorRates {
   ReadingRate all_;
 };
 
-/// What the given images tell of places that they do not show.
+/// What the given images tell about places that they do not show.
 struct LearnedRates {
   double hazard_per_m = 0;  ///< how often a ray through the work area meets something unknown
   FloorRates floor;
   ReadingRate beyond;  ///< of pixels whose rays meet neither the floor nor anything known
 };
 
-/// All that the expected gain is reckoned from, but for the view. Immutable.
+/// Everything that the expected gain is computed from, except the view. Immutable.
 struct UnseenModel {
   StereoSensor sensor;
   ShadowCells cells;

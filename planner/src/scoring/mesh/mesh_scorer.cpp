@@ -62,11 +62,11 @@ struct MeshScorer::Impl {
   /// @throws Error bad_input for a view with another depth range: its weights would be others.
   void check(const PinholeCamera& view) const {
     if (view.range() == weight.range()) return;
-    throw bad_input("views",
-                    fmt::format("a view's depth range is {} to {} m; the scorer was made for {} to "
-                                "{} m",
-                                view.range().near_m, view.range().far_m, weight.range().near_m,
-                                weight.range().far_m));
+    throw bad_input(
+        "views",
+        fmt::format("a view has the depth range {} to {} m; expected the scorer's, {} to {} m",
+                    view.range().near_m, view.range().far_m, weight.range().near_m,
+                    weight.range().far_m));
   }
 
   /// The view on the image that it is scored by.

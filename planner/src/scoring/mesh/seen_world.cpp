@@ -38,10 +38,9 @@ double opening_voxel_m(const Box& work_area, const MeshMethod& method) {
 void expect_depth(const WorldModel& world) {
   const auto with_depth = [](const DepthCamera& camera) { return camera.depth != nullptr; };
   if (std::any_of(world.cameras.begin(), world.cameras.end(), with_depth)) return;
-  throw bad_input("method",
-                  fmt::format("\"mesh\" looks at depth images, and none of the {} cameras has one; "
-                              "give it depth images, or choose another method",
-                              world.cameras.size()));
+  throw bad_input("method", fmt::format("\"mesh\" needs depth images, and none of the {} cameras "
+                                        "has one; add depth images or choose another method",
+                                        world.cameras.size()));
 }
 
 }  // namespace

@@ -64,7 +64,8 @@ FaceProjector::FaceProjector(const PinholeCamera& camera, const FlatFaces& faces
 
 void FaceProjector::find_groups() {
   BoxImages images;
-  std::size_t projected = ~std::size_t(0);  // so many eights of boxes before those in `images`
+  std::size_t projected =
+      ~std::size_t(0);  // number of groups of eight boxes before those in `images`
   for (std::uint32_t g = 0; g < faces_.groups.size(); ++g) {
     const FlatFaces::Group& group = faces_.groups[g];
     if (group.parallel && along_m(group) - group.lowest_m < lowest_m_) continue;

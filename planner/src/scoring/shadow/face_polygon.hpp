@@ -38,7 +38,7 @@ struct FacePolygon {
   double nearest_m;      ///< no ray meets it nearer than this, unless it is grazing
   double farthest_m;     ///< nor farther than this
   bool grazing;          ///< seen from so flat that nothing is known of its rays' depths
-  std::uint32_t origin;  ///< whoever makes the polygon may note here what it is of
+  std::uint32_t origin;  ///< the polygon's maker may note here what it is of
 };
 
 /// Projects faces into one camera, group by group.
@@ -147,7 +147,7 @@ class FaceProjector {
   double lowest_m_;           ///< faces that are lower look away
   std::vector<GroupInView> groups_;
 
-  // Of the corners of one group, from `loaded_` on. Pixels are of no use where the depth is not
+  // Of the corners of one group, from `loaded_` on. Pixels are undefined where the depth is not
   // above `clip_m_`.
   std::uint32_t loaded_ = 0;
   Eigen::Vector3d outwards_;  ///< the normal, in the camera's frame, of the face that is visited

@@ -23,11 +23,11 @@ struct PointArrays {
   const double *x, *y, *z;
 };
 
-/// Pixels are of no use where the depth is not positive.
+/// Pixels are undefined where the depth is not positive.
 void project_points(const Projection& p, const PointArrays& points, std::size_t count, double* u,
                     double* v, double* depth);
 
-/// Where eight boxes' corners are on the image at most. Pixels are of no use where `nearest` is not
+/// Where eight boxes' corners are on the image at most. Pixels are undefined where `nearest` is not
 /// positive.
 struct BoxImages {
   double left[kBoxLanes], right[kBoxLanes], top[kBoxLanes], bottom[kBoxLanes];

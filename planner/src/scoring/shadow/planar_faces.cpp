@@ -44,7 +44,7 @@ void add_faces(const Scene& scene, ObjectId object, std::vector<SizedFace>& face
 }
 
 /// Which of the six half axes a normal is nearest to: faces on different sides of something are
-/// hardly ever seen together.
+/// rarely seen together.
 int side_of(const Eigen::Vector3d& normal) {
   int axis = 0;
   normal.cwiseAbs().maxCoeff(&axis);

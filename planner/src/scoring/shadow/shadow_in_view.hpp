@@ -44,7 +44,7 @@ FaceProjector project_shadow(const PinholeCamera& view, const ShadowFaces& all,
 /// of them.
 struct ShadowInView {
   std::vector<FacePolygon> polygons;      ///< the shadow's first, then occluders
-  std::size_t shadow_count = 0;           ///< so many are the shadow's
+  std::size_t shadow_count = 0;           ///< number of the shadow's polygons
   PixelSpan columns{0, -1}, rows{0, -1};  ///< all polygons lie in there
   double farthest_m = 0;                  ///< no shadow is farther, not even at its back
 

@@ -75,11 +75,11 @@ struct ShadowScorer::Impl {
   /// @throws Error bad_input for a view with another depth range: its weights would be others.
   void check(const PinholeCamera& view) const {
     if (view.range() == weight.range()) return;
-    throw bad_input("views",
-                    fmt::format("a view's depth range is {} to {} m; the scorer was made for {} to "
-                                "{} m",
-                                view.range().near_m, view.range().far_m, weight.range().near_m,
-                                weight.range().far_m));
+    throw bad_input(
+        "views",
+        fmt::format("a view has the depth range {} to {} m; expected the scorer's, {} to {} m",
+                    view.range().near_m, view.range().far_m, weight.range().near_m,
+                    weight.range().far_m));
   }
 
   /// As if all that the groups' rectangles may show were as far away as any shadow.
@@ -172,10 +172,10 @@ void ShadowScorer::score(std::span<const PinholeCamera> views, std::span<const S
   for (const PinholeCamera& view : views) {
     if (view.range() == impl_->weight.range()) continue;
     throw bad_input(
-        "views", fmt::format("a view's depth range is {} to {} m; the scorer was made for {} to "
-                             "{} m",
-                             view.range().near_m, view.range().far_m, impl_->weight.range().near_m,
-                             impl_->weight.range().far_m));
+        "views",
+        fmt::format("a view has the depth range {} to {} m; expected the scorer's, {} to {} m",
+                    view.range().near_m, view.range().far_m, impl_->weight.range().near_m,
+                    impl_->weight.range().far_m));
   }
   for (std::size_t i = 0; i < views.size(); ++i) {
     results[i] = stop.stop_requested() ? ScoreBound{} : impl_->score(views[i], needed[i], stop);

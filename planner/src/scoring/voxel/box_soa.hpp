@@ -6,7 +6,7 @@
 
 namespace vantage::planner::detail {
 
-/// Boxes are tested so many at once.
+/// Number of boxes that are tested at once.
 inline constexpr std::size_t kBoxLanes = 8;
 
 /// Bounding boxes, one array per number, so that eight are tested at once: filled up to a multiple

@@ -31,8 +31,8 @@ void check_views(std::span<const PinholeCamera> views, std::size_t needed, std::
   }
   for (std::size_t i = 1; i < views.size(); ++i) {
     if (views[i].centre() == views[0].centre()) continue;
-    throw bad_input("views", fmt::format("view {} has another centre than view 0; expected views "
-                                         "that share one",
+    throw bad_input("views", fmt::format("the centre of view {} differs from that of view 0; "
+                                         "expected views that share one centre",
                                          i));
   }
 }
@@ -81,7 +81,7 @@ void VisiblePoints::count(std::span<const PinholeCamera> views, std::span<const 
                           const StopToken& stop) const {
   check_views(views, needed.size(), results.size());
   if (seen.size() != views.size())
-    throw bad_input("views", "expected a place for each one's points");
+    throw bad_input("views", "expected one element of `seen` for each view");
   if (views.empty()) return;
   planner::detail::ViewCounter counter(impl_->set, impl_->obstacles, views, needed);
   counter.keep(seen);

@@ -72,7 +72,7 @@ class VANTAGE_API PinholeCamera {
   Eigen::Vector3d unproject(double u, double v, double depth) const;
   PixelRay pixel_ray(double u, double v) const;
 
-  /// Pixels and depths of N points. Where the depth is not positive, u and v are of no use.
+  /// Pixels and depths of N points. Where the depth is not positive, u and v are undefined.
   /// @throws Error bad_input unless all spans have `p_world.size` elements.
   void project(PointsView p_world, std::span<float> u, std::span<float> v,
                std::span<float> depth) const;

@@ -18,7 +18,7 @@ class VANTAGE_API Pose {
 
   /// `rotation` may be off by 1e-3 per entry of RᵀR, as rotations in text files are; the closest
   /// rotation is used. `where` names the place in errors.
-  /// @throws Error bad_input if anything is not finite, or if `rotation` is no rotation.
+  /// @throws Error bad_input if anything is not finite, or if `rotation` is not a rotation.
   static Pose from_rotation(const Eigen::Matrix3d& rotation, const Eigen::Vector3d& translation,
                             std::string_view where = "pose");
 

@@ -10,7 +10,7 @@ namespace vantage {
 
 enum class StopReason { none, cancelled, deadline };
 
-/// Tells long work when to stop, and tells its owner how far it has come.
+/// Tells long work when to stop, and its owner how far it has progressed.
 ///
 /// Copies share one state. Every method may be called from any thread; `cancel` from a signal
 /// handler too. When both happened, `cancelled` wins over `deadline`. Input is validated before the
@@ -31,7 +31,7 @@ class VANTAGE_API StopToken {
   void expect(std::uint64_t steps) const noexcept;
   void advance(std::uint64_t steps) const noexcept;
 
-  /// The owner's side: the part done, 0 to 1; it never goes back.
+  /// The owner's side: the share done, 0 to 1; it never decreases.
   double progress() const noexcept;
 
  private:

@@ -42,8 +42,8 @@ class VANTAGE_API TriangleMesh {
   std::size_t dropped_degenerate() const noexcept { return dropped_degenerate_; }
   bool empty() const noexcept { return triangles_.empty(); }
 
-  /// What was odd about the file that the mesh comes from, for people; each is a sentence without a
-  /// full stop that begins with the place in the file. They stay with moved and scaled copies.
+  /// Oddities of the file that the mesh comes from; each is a sentence without a full stop that
+  /// begins with the place in the file. Moved and scaled copies keep them.
   std::span<const std::string> remarks() const noexcept {
     return remarks_ == nullptr ? std::span<const std::string>() : *remarks_;
   }

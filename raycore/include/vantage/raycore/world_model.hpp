@@ -12,7 +12,7 @@
 
 namespace vantage {
 
-/// What a thing may be just as well: another pose, or another type.
+/// Another explanation of an object: another pose, or another type.
 struct AlternativeObject {
   std::string type;
   std::shared_ptr<const TriangleMesh> mesh;  ///< never null
@@ -27,7 +27,7 @@ struct KnownObject {
   Pose T_world_object;
   std::string type = {};                    ///< the knowledge base's name; empty if it has none
   std::optional<Matrix6d> covariance = {};  ///< of T_world_object; none: the pose was not measured
-  double probability = 1;                   ///< that it is this, here
+  double probability = 1;                   ///< probability of this type and pose
   std::vector<AlternativeObject> alternatives = {};  ///< likeliest first
 };
 
@@ -38,7 +38,7 @@ struct DepthCamera {
   std::shared_ptr<const DepthImage> depth;  ///< null for a camera without depth
 };
 
-/// What is known of the workcell: where reconstruction and planning meet.
+/// What is known about the workcell: the interface between reconstruction and planning.
 struct WorldModel {
   std::vector<KnownObject> objects;
   std::vector<KnownObject> static_structures;

@@ -100,7 +100,7 @@ ChildProcess::ChildProcess(const ChildLimits& limits, const std::string& where,
       deadline_(std::chrono::steady_clock::now() + std::chrono::seconds(limits.waiting_s)) {
   const auto fail = [&](int code) {
     throw Error(ErrorCode::out_of_resources, where,
-                fmt::format("no process can be started to read it in: {}",
+                fmt::format("cannot start a process to read it: {}",
                             std::generic_category().message(code)));
   };
   std::array<int, 2> ends = {};

@@ -16,9 +16,9 @@ struct ChildLimits {
   std::uint64_t memory_bytes = 0;  ///< more than what this process has mapped
 };
 
-/// A function that runs in a process of its own, a fork of this one, so that what it does wrong
-/// stays there: it has nothing but a pipe to this process, cannot write files, has the limits
-/// above, and ends when the thread that started it does. One owner, one thread.
+/// A function that runs in a process of its own, a fork of this one, so that its faults stay there:
+/// it has nothing but a pipe to this process, cannot write files, has the limits above, and ends
+/// when the thread that started it does. One owner, one thread.
 class ChildProcess {
  public:
   /// `work` gets the pipe's end to write to. Its process ends when it returns; it must not throw.

@@ -150,7 +150,7 @@ PolygonSoup decode(std::span<const std::uint8_t> bytes, const std::string& endin
 }  // namespace
 
 void read_with_assimp(std::span<const std::uint8_t> bytes, const std::filesystem::path& path,
-                      MeshCollector& mesh) {
+                      MeshBuilder& mesh) {
   std::string ending = path.extension().string().substr(1);
   for (char& c : ending) c = c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c;
   const unsigned seconds = 2 + 2 * unsigned(bytes.size() >> 20);
@@ -168,10 +168,10 @@ void read_with_assimp(std::span<const std::uint8_t> bytes, const std::filesystem
   const std::string how = child.end();
   throw Error(
       child.out_of_memory() ? ErrorCode::out_of_resources : ErrorCode::bad_input, mesh.file(),
-      fmt::format("cannot be read as a .{} mesh: assimp, which ran in a process of its own, {}; "
-                  "the file is damaged or far too large: export it anew, or convert it to "
-                  ".stl, .ply, .obj or .glb",
-                  ending, how.empty() ? "said nothing" : how));
+      fmt::format(
+          "cannot be read as a .{} mesh: assimp, which ran in a process of its own, {}; the file "
+          "is damaged or far too large: export it again, or convert it to .stl, .ply, .obj or .glb",
+          ending, how.empty() ? "said nothing" : how));
 }
 
 }  // namespace vantage::raycore::detail

@@ -59,7 +59,7 @@ class SoupStream {
   std::size_t at_ = 0, size_ = 0;
 };
 
-bool take_fault(SoupStream& stream, std::uint64_t size, MeshCollector& mesh) {
+bool take_fault(SoupStream& stream, std::uint64_t size, MeshBuilder& mesh) {
   std::string fault;
   for (std::uint64_t i = 0; i < std::min<std::uint64_t>(size, kMaxFault); ++i) {
     char c = 0;
@@ -69,7 +69,7 @@ bool take_fault(SoupStream& stream, std::uint64_t size, MeshCollector& mesh) {
   throw bad_input(mesh.file(), std::move(fault));
 }
 
-bool take_polygons(SoupStream& stream, std::uint64_t words, MeshCollector& mesh) {
+bool take_polygons(SoupStream& stream, std::uint64_t words, MeshBuilder& mesh) {
   std::vector<std::int64_t> corners;
   for (std::uint64_t done = 0, number = 0; done < words; ++number) {
     std::uint32_t count = 0;
@@ -77,7 +77,7 @@ bool take_polygons(SoupStream& stream, std::uint64_t words, MeshCollector& mesh)
     const FilePlace place = {mesh.file(), "face", number};
     if (count > kMaxCorners || count > words - done - 1) {
       place.fail(
-          fmt::format("the face has {} corners, which cannot be; the file is damaged", count));
+          fmt::format("the face has {} corners, which is impossible; the file is damaged", count));
     }
     corners.clear();
     for (std::uint32_t k = 0; k < count; ++k) {
@@ -102,7 +102,7 @@ void send(int pipe, const PolygonSoup& soup) {
       write_to_pipe(pipe, raw_bytes(soup.polygons.data(), soup.polygons.size()));
 }
 
-bool receive(ChildProcess& child, MeshCollector& mesh) {
+bool receive(ChildProcess& child, MeshBuilder& mesh) {
   SoupStream stream(child);
   SoupHeader header = {};
   if (!stream.take(header)) return false;

@@ -19,13 +19,13 @@ struct PolygonSoup {
   std::string fault;  ///< if it is not empty, there is no mesh
 };
 
-/// In the child. Returns early if nobody listens.
+/// In the child. Returns early if the pipe is closed.
 void send(int pipe, const PolygonSoup& soup);
 
-/// Takes what a child sends into the collector, and believes none of it: sizes are limited to
-/// 512 MiB, indices are checked.
+/// Takes what a child sends into the builder, and trusts none of it: sizes are limited to 512 MiB,
+/// indices are checked.
 /// @throws Error bad_input with the child's fault; out_of_resources beyond the limit.
 /// @returns false if the message breaks off: `child.end()` says why.
-bool receive(ChildProcess& child, MeshCollector& mesh);
+bool receive(ChildProcess& child, MeshBuilder& mesh);
 
 }  // namespace vantage::raycore::detail

@@ -20,7 +20,7 @@ std::vector<std::uint8_t> read_file_beside(const std::filesystem::path& mesh,
                     "folder or below it",
                     in_quotes(name), why));
   };
-  if (name.empty() || name.find('\0') != std::string_view::npos) refuse("is no path");
+  if (name.empty() || name.find('\0') != std::string_view::npos) refuse("is not a path");
   if (fs::path(name).is_absolute()) refuse("is an absolute path");
   std::error_code error;
   const fs::path folder = fs::canonical(mesh.has_parent_path() ? mesh.parent_path() : ".", error);
@@ -30,7 +30,7 @@ std::vector<std::uint8_t> read_file_beside(const std::filesystem::path& mesh,
   if (error) refuse("cannot be found: " + error.message());
   const auto [end, unused] = std::mismatch(folder.begin(), folder.end(), file.begin(), file.end());
   if (end != folder.end()) refuse("leads out of the mesh's folder");
-  if (!fs::is_regular_file(file, error)) refuse("is no regular file");
+  if (!fs::is_regular_file(file, error)) refuse("is not a regular file");
   return read_file(file);
 }
 

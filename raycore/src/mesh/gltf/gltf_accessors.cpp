@@ -96,7 +96,7 @@ std::vector<std::uint8_t> GltfAccessors::load_buffer(const GltfValue& value) {
   const std::string_view text = uri.text();
   if (!text.starts_with("data:")) return read_file_beside(path_, without_percent(text));
   std::optional<std::vector<std::uint8_t>> bytes = data_of_uri(text);
-  if (!bytes) uri.fail("is no data in base64; expected \"data:…;base64,\" and the bytes");
+  if (!bytes) uri.fail("is not base64 data; expected \"data:…;base64,\" and the bytes");
   return std::move(*bytes);
 }
 

@@ -35,7 +35,7 @@ bool leaves_geometry(std::string_view name) {
   return name.starts_with("KHR_materials_");
 }
 
-void check_extensions(const GltfValue& root, MeshCollector& mesh) {
+void check_extensions(const GltfValue& root, MeshBuilder& mesh) {
   for (std::size_t i = 0; i < root.element_count("extensionsRequired"); ++i) {
     const GltfValue name = root.element("extensionsRequired", i);
     if (leaves_geometry(name.text())) continue;
@@ -46,7 +46,7 @@ void check_extensions(const GltfValue& root, MeshCollector& mesh) {
   }
   for (std::size_t i = 0; i < root.element_count("extensionsUsed"); ++i) {
     if (root.element("extensionsUsed", i).text() == "EXT_mesh_gpu_instancing") {
-      mesh.add_remark("its copies by EXT_mesh_gpu_instancing are left out, all but the first");
+      mesh.add_remark("only the first of its copies by EXT_mesh_gpu_instancing is kept");
     }
   }
 }
@@ -88,7 +88,7 @@ Eigen::Affine3d transform_of(const GltfValue& node) {
 class GltfReader {
  public:
   GltfReader(const GltfFile& file, const std::filesystem::path& path, std::uint64_t size,
-             MeshCollector& mesh)
+             MeshBuilder& mesh)
       : root_(file.json, mesh.file() + ": "),
         accessors_(root_, file.binary, path),
         size_(size),
@@ -230,7 +230,7 @@ class GltfReader {
   GltfValue root_;
   GltfAccessors accessors_;
   std::uint64_t size_;
-  MeshCollector& mesh_;
+  MeshBuilder& mesh_;
   std::vector<Placed> left_;
   std::vector<bool> shown_;
   std::uint64_t lines_ = 0, elements_ = 0;
@@ -239,7 +239,7 @@ class GltfReader {
 }  // namespace
 
 void read_gltf(std::span<const std::uint8_t> bytes, const std::filesystem::path& path,
-               MeshCollector& mesh) {
+               MeshBuilder& mesh) {
   const GltfFile file = open_gltf(bytes, mesh.file());
   mesh.set_file_up(UpAxis::y);
   GltfReader(file, path, bytes.size(), mesh).read();

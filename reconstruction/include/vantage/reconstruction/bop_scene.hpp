@@ -32,7 +32,7 @@ struct BopScene {
   std::filesystem::path folder;
   std::vector<BopImage> images;              ///< ascending by id, never empty
   std::vector<std::filesystem::path> files;  ///< every file that was read
-  std::vector<std::string> warnings = {};    ///< for people; each names the file that it is about
+  std::vector<std::string> warnings = {};    ///< warnings for the user; each names its file
 };
 
 /// Reads `scene_camera.json` and the images of the folder depth; of those in rgb, or else gray,
@@ -51,8 +51,8 @@ struct BopScene {
 /// @param range of every camera: BOP does not store it.
 /// @param only_ids loads no other image; empty means all.
 /// @throws Error bad_input with the file, the image's id and the key: for files that are missing or
-/// damaged, keys that are missing or of the wrong type or length, half a camera pose, a matrix
-/// that is no rotation, intrinsics that do not fit the image, an id that is there twice or not at
+/// damaged, keys that are missing or of the wrong type or length, half a camera pose, a matrix that
+/// is not a rotation, intrinsics that do not fit the image, an id that is there twice or not at
 /// all.
 VANTAGE_API BopScene load_bop_scene(const std::filesystem::path& folder,
                                     const DepthRange& range = {},

@@ -25,7 +25,7 @@ struct SceneKnowledge {
 ///   object below the table);
 /// - the object would hide something that a camera saw: a marker of the board, or of an object that
 ///   more observations speak for;
-/// - it would stand inside another object that more speaks for.
+/// - it would stand inside another object with more support.
 ///
 /// Their observations become unexplained, with the reason; where the markers of a type seen by
 /// several cameras would fit each other in another size, the reason says which. Distances below

@@ -21,7 +21,7 @@ struct TypeFeature {
   std::size_t index = 0;
 };
 
-/// Where reconstruction asks what there is: types, what they are, and how to recognise them
+/// What reconstruction asks about objects: their types, their hierarchy, and how to recognise them
 /// (thesis, section 5.2). Derive from it to put another store behind it; implementations have to be
 /// safe to read from many threads at once.
 class VANTAGE_API KnowledgeBase {
@@ -31,7 +31,7 @@ class VANTAGE_API KnowledgeBase {
   /// All types, in an order that stays the same.
   virtual const std::vector<TypePtr>& types() const = 0;
 
-  /// Null for a name that is no type's.
+  /// Null for a name of no type.
   virtual TypePtr find(std::string_view name) const = 0;
 
   /// Whether "a `name` is a(n) `ancestor`": itself, its parents, theirs and so on. Neither needs to
@@ -44,8 +44,8 @@ class VANTAGE_API KnowledgeBase {
   /// The types that are an `ancestor`, in their order.
   std::vector<TypePtr> types_that_are(std::string_view ancestor) const;
 
-  /// @throws Error bad_input, with `where` as the place, for a name that is no type's; the message
-  /// has the nearest name.
+  /// @throws Error bad_input, with `where` as the place, for a name of no type; the message has the
+  /// nearest name.
   TypePtr get(const std::string& name, const std::string& where) const;
 };
 
@@ -59,8 +59,8 @@ class VANTAGE_API MemoryKnowledgeBase final : public KnowledgeBase {
 
   /// @throws Error bad_input, the type's `place` or name as the place, for a name that is empty or
   /// used twice, a type without mesh, an ancestor that is its own, features without a type, a value
-  /// or points, sizes and points that are none, axes that are not of length 1, and two features of
-  /// a type that are the same in everything.
+  /// or points, invalid sizes and points, axes that are not of length 1, and two features of a type
+  /// that are the same in everything.
   explicit MemoryKnowledgeBase(std::vector<ObjectType> types, Hierarchy hierarchy = {});
 
   const std::vector<TypePtr>& types() const override { return types_; }

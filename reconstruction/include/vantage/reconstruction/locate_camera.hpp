@@ -10,15 +10,15 @@
 
 namespace vantage {
 
-/// How far residuals of located features may go.
+/// Limits of located features' residuals.
 struct LocateOptions {
-  double inlier_px = 3.0;  ///< a marker with a corner farther off is taken for a wrong one
+  double inlier_px = 3.0;  ///< a marker with a corner farther off counts as wrong
   /// Two poses that explain the corners nearly equally well are told apart only if the worse one's
   /// chi-square is above the better one's by this; 13.8 is a chance of 1 : 1000 for a wrong choice.
   double min_evidence = 13.8;
 };
 
-/// A pose of a camera that the markers of the board speak for.
+/// A pose of a camera that the markers of the board support.
 struct LocatedPose {
   Pose T_world_cam;
   Matrix6d covariance = Matrix6d::Zero();  ///< of T_world_cam
@@ -38,20 +38,21 @@ struct CameraLocation {
   /// Of the board's markers, those that are seen and sound, each counted once: the pose is "by 5 of
   /// 7 markers".
   std::size_t markers_seen = 0;
-  /// What speaks against the pose, with the likely cause; empty if nothing does. The covariance is
+  /// What contradicts the pose, with the likely cause; empty if nothing does. The covariance is
   /// then wide enough for the cause that is named.
   std::string warning = {};
 };
 
 /// The pose of a camera from the markers of a board, whatever their layout; robust against markers
-/// that are read wrongly or moved. Minimises the reprojection error with the lens' distortion
-/// (robustly) from every pose that a single marker suggests.
+/// that are misread or moved. Minimises the reprojection error with the lens' distortion (robustly)
+/// from every pose that a single marker suggests.
 ///
 /// Without a pose, and with a reason, if no marker of the board is seen, if those that agree are
 /// less than twice as many as those that contradict them, or if the pose is ambiguous: a planar
 /// board far away, seen from the front, or a single marker. Where markers contradict each other, or
-/// residuals are no noise, the usual mistakes are tried (focal length, resolution, axes, a turned
-/// picture, the parity of a checkerboard, sizes, a bent board), and the one that fits is named.
+/// residuals are larger than noise, the usual mistakes are tried (focal length, resolution, axes, a
+/// turned picture, the parity of a checkerboard, sizes, a bent board), and the one that fits is
+/// named.
 /// @param board features in the world's frame; those without points are ignored.
 /// Thread-safe.
 VANTAGE_API CameraLocation locate_camera(const Lens& lens,

@@ -36,10 +36,10 @@ struct MarkerCells {
 VANTAGE_API std::vector<std::string> marker_dictionaries();
 
 /// The name as `marker_dictionaries` has it: "4X4_50" for "DICT_4X4_50", "APRILTAG_36h11" for
-/// "tag36h11", in upper or lower case. A name that is none stays as it is.
+/// "tag36h11", in upper or lower case. Other names are returned unchanged.
 VANTAGE_API std::string marker_dictionary(std::string_view name);
 
-/// "4X4" for 4X4_50 and its like, whose first markers are the same: a camera cannot tell 4X4_50's
+/// "4X4" for 4X4_50 and its family, whose first markers are the same: a camera cannot tell 4X4_50's
 /// marker 7 from 4X4_250's. Other names stand for themselves.
 VANTAGE_API std::string marker_family(std::string_view dictionary);
 

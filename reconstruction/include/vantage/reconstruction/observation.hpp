@@ -44,7 +44,7 @@ struct Observation {
 struct CameraView {
   std::string name;
   Lens lens;                               ///< intrinsics and distortion
-  std::optional<Pose> T_world_cam = {};    ///< none: not located; the view is then of no use
+  std::optional<Pose> T_world_cam = {};    ///< none: not located; the view is then ignored
   Matrix6d covariance = Matrix6d::Zero();  ///< of T_world_cam; zero where it is taken as exact
   std::vector<Observation> observations = {};
 };

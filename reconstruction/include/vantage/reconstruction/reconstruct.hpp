@@ -20,7 +20,7 @@ struct ObservationId {
   auto operator<=>(const ObservationId&) const = default;
 };
 
-/// An observation that speaks for an object.
+/// An observation that supports an object.
 struct Support {
   ObservationId id;
   std::size_t feature = 0;  ///< of the object's type
@@ -47,16 +47,17 @@ struct ReconstructedObject {
   double rms_px = 0;                           ///< over the points of all inliers
   std::vector<Support> support = {};           ///< ascending by id
   std::vector<Alternative> alternatives = {};  ///< likeliest first
-  std::string warning = {};                    ///< what speaks against it; empty if nothing does
+  std::string warning = {};                    ///< what contradicts it; empty if nothing does
 };
 
-/// An observation that no object was made of.
+/// An observation that no object explains.
 struct Unexplained {
   ObservationId id;
   std::string reason;
 };
 
-/// What was made of the views. Objects in the order of their types, then of their first support.
+/// The result of a reconstruction. Objects in the order of their types, then of their first
+/// support.
 struct Reconstruction {
   std::vector<ReconstructedObject> objects;
   std::vector<Unexplained> unexplained;  ///< ascending by id

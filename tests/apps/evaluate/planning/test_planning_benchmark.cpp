@@ -52,7 +52,7 @@ void expect_same(const Pick& a, const Pick& b) {
 
 }  // namespace
 
-TEST_CASE("methods by their names, with the power of the depth in it") {
+TEST_CASE("methods are found by name, with their depth power") {
   CHECK(named_method("voxel").method == Method(VoxelMethod{}));
   CHECK(named_method("shadow").name == "shadowD6");
   const NamedMethod d3 = named_method("shadowD3");
@@ -68,8 +68,8 @@ TEST_CASE("methods by their names, with the power of the depth in it") {
     CHECK_THROWS_WITH_AS(
         named_method(name),
         (std::string("--methods: found '") + name +
-         "'; expected one of: expected, voxel, shadow, mesh, light; shadowD or meshD and a "
-         "number from 0 to 16 is that method with that power of the depth")
+         "'; expected one of: expected, voxel, shadow, mesh, light; or shadowD or meshD "
+         "with a depth power from 0 to 16, e.g. shadowD6")
             .c_str(),
         Error);
   }

@@ -48,14 +48,14 @@ TEST_CASE("a scene's name: the file, its cameras, its depth images") {
   CHECK(planning_cell_name(file.string() + ":d+none").cameras == std::vector<std::string>{"d"});
 }
 
-TEST_CASE("a scene's name that is none") {
+TEST_CASE("an invalid scene name is refused") {
   expect_refusal([] { planning_cell_name("wall.yaml+some"); }, "depth images",
                  "found \"some\"; expected one of: none, ideal, noisy");
   expect_refusal([] { planning_cell_name(":side"); }, "':side'", "expected FILE[:CAMERA");
   expect_refusal([] { planning_cell_name(""); }, "''", "expected FILE");
 }
 
-TEST_CASE("a cell has the cameras that are asked for, in that order, and known objects alone") {
+TEST_CASE("a cell has the requested cameras, in that order, and only known objects") {
   const PlanningCell both = load(shipped_workcell("corridor"), ":right,left");
   CHECK(both.name == "corridor:right,left");
   CHECK(both.depth == "none");
@@ -111,7 +111,7 @@ TEST_CASE("cells that cannot be evaluated say why") {
   const auto bare = folder.write("bare.yaml",
                                  "work_area: {min_m: [0, 0, 0], max_m: [1, 1, 1]}\n"
                                  "known_objects: [{name: a, shape: {sphere: {radius_m: 0.1}}}]\n");
-  expect_refusal([&] { load(bare, ""); }, bare.string() + ": cameras", "there are none");
+  expect_refusal([&] { load(bare, ""); }, bare.string() + ": cameras", "there are no cameras");
 }
 
 }  // namespace vantage::test

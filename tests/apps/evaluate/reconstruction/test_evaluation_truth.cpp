@@ -124,7 +124,7 @@ TEST_CASE("a truth that cannot be read is refused with the place") {
 TEST_CASE("without any truth there is nothing to evaluate") {
   const test::TemporaryFolder folder;
   std::vector<std::filesystem::path> files;
-  test::expect_bad_input(folder.path().string(), "what truly stands there is not known",
+  test::expect_bad_input(folder.path().string(), "there is no ground truth",
                          [&] { true_objects(workcell(), scene_in(folder.path()), files); });
 }
 

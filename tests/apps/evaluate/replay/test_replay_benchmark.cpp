@@ -150,7 +150,7 @@ TEST_CASE("a method picks what a plan picks that has the frames' poses as its on
   }
 }
 
-TEST_CASE("a recorded frame was possible, wherever a plan would say that no camera can be") {
+TEST_CASE("a recorded frame is a candidate, even where a plan would reject the pose") {
   // The last camera stands in the work area, low behind the post, where the first two do not see.
   PlanInput input = recording({{0.9, 0.1, 0.1}, {0.9, -0.1, 0.1}, {-0.15, 0, 0.02}});
   const ReplayBenchmarkOptions settings = settings_for({"voxel"});

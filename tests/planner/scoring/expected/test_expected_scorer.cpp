@@ -83,7 +83,7 @@ TEST_CASE("with an ideal sensor and nothing unknown, the expected gain is the bo
   }
 }
 
-TEST_CASE("the expected gain equals the plain reckoning, ray by ray and voxel by voxel") {
+TEST_CASE("the expected gain equals the plain computation, ray by ray and voxel by voxel") {
   std::size_t weighed = 0;
   for (std::uint32_t seed = 0; seed < test::scene_count(24); ++seed) {
     CAPTURE(seed);

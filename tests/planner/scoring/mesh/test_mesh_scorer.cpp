@@ -238,7 +238,7 @@ TEST_CASE("noise is filtered out in a hall, too, by larger voxels") {
   CHECK(bench.opened->geometry().voxel_size_m() == doctest::Approx(0.025 / 3));
 }
 
-TEST_CASE("the mesh method says what it cannot do without") {
+TEST_CASE("the mesh method reports what it needs") {
   const WorldModel blind = test::wall_world();
   const Box area = test::random_workcell_area();
   test::expect_bad_input("method", "none of the 1 cameras has one",
@@ -248,7 +248,7 @@ TEST_CASE("the mesh method says what it cannot do without") {
   };
   refused({.opening_m = -1}, "an opening of -1 m");
   refused({.opening_m = std::nan("")}, "an opening of nan m");
-  refused({.enlarge = 0.5}, "enlarged 0.5 times; expected 1 to 10");
+  refused({.enlarge = 0.5}, "scaled by 0.5; expected 1 to 10");
   refused({.enlarge = std::nan("")}, "expected 1 to 10");
   refused({.image_width = 8}, "images of 8 pixels; expected 16 to 16384");
   refused({.shortlist = 0}, "a shortlist of 0");
@@ -258,9 +258,9 @@ TEST_CASE("the mesh method says what it cannot do without") {
   const MeshScorer scorer(world, kRange, 6);
   const PinholeCamera other = view_at({1, 0, 0}, {0, 0, 0});
   const PinholeCamera far(kSmall, other.T_world_cam(), {0.05, 3});
-  test::expect_bad_input("views", "the scorer was made for 0.05 to 2 m",
+  test::expect_bad_input("views", "expected the scorer's, 0.05 to 2 m",
                          [&] { (void)scorer.score(far); });
-  test::expect_bad_input("views", "the scorer was made for",
+  test::expect_bad_input("views", "expected the scorer's",
                          [&] { (void)scorer.observe(far, std::nullopt); });
   std::array<ScoreBound, 2> results;
   test::expect_bad_input("views", "1 views, 1 scores needed and 2 results",

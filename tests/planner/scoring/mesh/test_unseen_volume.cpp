@@ -104,7 +104,7 @@ TEST_CASE("where nothing was seen, a view of all of the work area has its volume
   CHECK(d6_from(-2) > 2 * d6_from(-1.1));
 }
 
-TEST_CASE("what a known object hides is no volume to reveal") {
+TEST_CASE("what a known object hides is not counted as revealed volume") {
   SeenWorld world{kVolumeArea, {}, {}};
   const PinholeCamera view =
       volume_view_at({0, -6, 0.125}, {0, 0, 0.125}, {320, 240, 1500, 1500, 159.5, 119.5});

@@ -265,7 +265,7 @@ TEST_CASE("the terms of a shadow score") {
   CHECK(terms[0].value > 100);
 }
 
-TEST_CASE("a shadow score that is stopped says nothing") {
+TEST_CASE("a shadow score that is stopped is unknown") {
   const PlanningScene scene = test::shadow_scene(7);
   Random random(7);
   const std::vector<PinholeCamera> views(3, test::shadow_view_outside(random, 160, 120));

@@ -70,7 +70,7 @@ TEST_CASE("surfaces count inside the work area alone, and as many samples as can
   CHECK(floor.scorer.unit() == doctest::Approx((0.64 + 6 * face) / (1 << 17)).epsilon(1e-6));
 }
 
-TEST_CASE("the light method's flaw: what nobody knows casts no shade") {
+TEST_CASE("the light method's flaw: unknown objects cast no shadow") {
   WorldModel unknown = lit_cube();
   unknown.objects.clear();
   const Lit dark(unknown, test::kSmallArea);
@@ -78,7 +78,7 @@ TEST_CASE("the light method's flaw: what nobody knows casts no shade") {
   CHECK(dark.scorer.upper_bound(view_from({-0.8, 0, 0.1})) == 0);
 }
 
-TEST_CASE("a method's scorer goes by the method's name, and options without sense are refused") {
+TEST_CASE("a method's scorer has the method's name, and invalid options are refused") {
   WorldModel measured = lit_cube();
   DepthCamera& camera = measured.cameras[0];
   camera.depth =

@@ -206,7 +206,7 @@ TEST_CASE("counting refuses spans that differ, views that share no centre, point
   std::vector<PinholeCamera> views = test::random_shared_views(random, 2);
   test::expect_bad_input("views", "2 views, 1 needed scores", [&] { count(points, views, {0}); });
   views.push_back(test::random_shared_views(random, 1).front());
-  test::expect_bad_input("views", "view 2 has another centre", [&] {
+  test::expect_bad_input("views", "the centre of view 2 differs", [&] {
     count(points, views, {0, 0, 0});
   });
   Points bad = c.points;

@@ -17,13 +17,12 @@ namespace vantage {
 /// The work area as several cameras see it, kept up to date change by change.
 ///
 /// What is inside the known objects, what each camera sees past them, and what its depth image adds
-/// are kept apart, so that a change costs what it concerns:
+/// are kept apart, so that a change costs only what it affects:
 /// - a new depth image one camera's comparison of depths, and no ray;
 /// - a camera that comes or moves its own rays, one that goes none;
 /// - objects that come, go or move their voxels, and the rays that may meet them where they were or
-///   are.
-/// `grid()` decides only those parts of the work area again of which something else is said now. It
-/// is bit for bit what a new ShadowVolume of the same world gives.
+///   are. `grid()` decides again only the parts of the work area whose evidence has changed. It is
+///   bit for bit what a new ShadowVolume of the same world gives.
 ///
 /// One thread at a time may call a ShadowVolume; work is split over the caller's task arena. The
 /// grids that it hands out are immutable and independent of it.

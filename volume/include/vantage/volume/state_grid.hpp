@@ -15,11 +15,11 @@
 
 namespace vantage {
 
-/// What is known of a voxel. The numbers are those of `grid.vdb`.
+/// The state of a voxel. The numbers are those of `grid.vdb`.
 enum class VoxelState : std::int32_t {
   free = 0,      ///< seen through by at least one camera
   occupied = 1,  ///< inside a known object, or at a measured surface
-  shadow = 2,    ///< neither: no camera sees it
+  shadow = 2,    ///< neither free nor occupied: no camera sees it
   revealed = 3,  ///< shadow that the suggested view would see
 };
 

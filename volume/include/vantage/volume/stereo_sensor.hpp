@@ -22,7 +22,7 @@ namespace vantage {
 ///   to a sixth, too narrow for a matching window; and such a window of 7 × 7 pixels ends 3 pixels
 ///   before the image does.
 ///
-/// The simulator measures by it, and the planner reckons by it with what a movable camera of this
+/// The simulator measures with it, and the planner uses it to predict what a movable camera of this
 /// kind will measure (`ExpectedScorer`).
 struct VANTAGE_API StereoSensor {
   StereoNoise noise = {};  ///< focal length and baseline also turn depth into disparity

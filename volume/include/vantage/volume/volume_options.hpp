@@ -6,7 +6,7 @@
 
 namespace vantage {
 
-/// What hides a voxel from a camera.
+/// Occluder geometry: what hides a voxel from a camera.
 enum class OccluderMode {
   mesh,    ///< the exact triangles of the known objects
   voxels,  ///< the voxels that known objects occupy, as in thesis 7.2.3
@@ -37,13 +37,13 @@ struct StereoNoise {
 
 /// Whether thin shadow counts as free before views are planned (`without_false_shadow`).
 enum class FalseShadowFilter {
-  automatic,  ///< if a camera has a depth image, its depths are noisy, and something thicker is
+  automatic,  ///< if a camera has a depth image, its depths are noisy, and thicker shadow is
               ///< left
   off,
   on,
 };
 
-/// How `ShadowVolume` and `classify` decide, and what planning makes of it.
+/// Options of `ShadowVolume`, `classify` and planning.
 struct VolumeOptions {
   OccluderMode occluders = OccluderMode::mesh;
 
@@ -56,13 +56,13 @@ struct VolumeOptions {
   double band_sigmas = 4;
 
   /// Of every camera's depths, and the only place where a request says it: classification, the mesh
-  /// method and whatever else reckons with noise take it from here. It is a D435's unless you say
-  /// your sensor's.
+  /// method and everything else that depends on noise take it from here. The default is a D435's;
+  /// set your sensor's.
   StereoNoise noise = {};
 
-  /// Noise leaves shadow along surfaces that cameras see. What a cube of `filter_m` does not fit in
-  /// is taken for that: at least 3 voxels along each edge. Planning filters what was classified;
-  /// `classify` and `ShadowVolume` themselves do not.
+  /// Noise leaves thin shadow along surfaces that cameras see. Shadow that a cube of edge
+  /// `filter_m` (at least 3 voxels) does not fit into counts as such. Planning filters what was
+  /// classified; `classify` and `ShadowVolume` themselves do not.
   FalseShadowFilter filter = FalseShadowFilter::automatic;
   double filter_m = 0.02;
 

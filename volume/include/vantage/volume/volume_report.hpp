@@ -14,7 +14,7 @@ struct ObjectConflict {
   std::uint64_t of_voxels = 0;  ///< the object's voxels in the work area
 };
 
-/// What a classification found beside the states, in voxels.
+/// Counts of a classification in addition to the states, in voxels.
 struct VolumeReport {
   /// Shadow by `ShadowCause`; the rest of it is hidden.
   std::uint64_t unmeasured_shadow = 0;
@@ -29,7 +29,7 @@ struct VolumeReport {
   /// Objects with conflicts only, in the order of the world model (objects, then structures).
   std::vector<ObjectConflict> conflicts;
 
-  /// For people; each names what it is about.
+  /// Warnings for the user; each names its subject.
   std::vector<std::string> warnings;
 };
 

@@ -19,8 +19,8 @@ struct SurfaceSamples;
 /// The light method (thesis 7.1): the cameras are lamps, and a view is worth the area of the known
 /// objects' and static structures' surfaces in the work area that no camera lights and it would.
 ///
-/// The thesis never built it, because of its flaw: an object that is well known is dark on its
-/// other side all the same, and what nobody knows casts no shade. It is here to show just that.
+/// The thesis never built it, because of its flaw: the far side of a known object counts as dark
+/// although it is known, and unknown objects cast no shadow. It is here to show this.
 class VANTAGE_API LightScorer final : public ViewScorer {
  public:
   LightScorer(const PlanningScene& scene, const WorldModel& world);

@@ -37,8 +37,8 @@ class VANTAGE_API ViewPolisher {
   /// pan and tilt, then of a half and of a quarter of that, each as long as one of them helps. None
   /// if there is nothing better around. It ends early if `stop` asks for it.
   ///
-  /// Better is a higher score less the journey's cost, on an image of `image_width`: on a larger
-  /// one the last of them may differ a little.
+  /// Better is a higher score after travel cost, on an image of `image_width`: on a larger one the
+  /// last of them may differ a little.
   std::vector<PolishStep> path(const Pose& T_world_cam, const StopToken& stop = {}) const;
 
  private:

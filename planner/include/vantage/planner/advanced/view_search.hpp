@@ -19,11 +19,11 @@ namespace vantage {
 struct SearchResult {
   std::vector<ScoredCandidate> candidates;  ///< in the order given
   std::vector<RankedView> ranked;           ///< the best first; among equals the lower id
-  std::size_t finished = 0;               ///< candidates rejected, scored, surpassed or passed over
-  StopReason stopped = StopReason::none;  ///< why, if not all were finished
+  std::size_t finished = 0;                 ///< candidates rejected, scored, surpassed or pruned
+  StopReason stopped = StopReason::none;    ///< why, if not all were finished
 };
 
-/// Finds the best of many candidates, and certainly the very one that scoring each of them in full
+/// Finds the best of many candidates: guaranteed to be the one that scoring each of them in full
 /// would find. Immutable; thread-safe.
 class VANTAGE_API ViewSearch {
  public:

@@ -14,8 +14,8 @@
 namespace vantage {
 
 /// The whole file.
-/// @throws Error bad_input if it is missing, is no regular file, cannot be read, is larger than
-/// `max_bytes`, or is a pointer that Git LFS left in the file's place.
+/// @throws Error bad_input if it is missing, not a regular file, cannot be read, is larger than
+/// `max_bytes`, or is a Git LFS pointer.
 VANTAGE_API std::vector<std::uint8_t> read_file(const std::filesystem::path& path,
                                                 std::size_t max_bytes = limits::kMaxFileBytes);
 

@@ -28,8 +28,8 @@ VANTAGE_API std::shared_ptr<const StateGrid> morphological_open(const StateGrid&
 /// @throws Error bad_input unless `edge_m` is finite and not negative.
 VANTAGE_API int opening_radius(const StateGrid& grid, double edge_m);
 
-/// What planning takes for shadow: the grid without the thin shadow of noise, if the options say
-/// so, and what that was in its report; else the grid itself.
+/// The shadow that planning uses: if the options say so, the grid without the thin shadow of noise,
+/// with its volume in the report; else the grid itself.
 /// @param grid a classification of `world` by `options`; never null.
 /// @throws Error bad_input as `VolumeOptions::check` does.
 VANTAGE_API std::shared_ptr<const StateGrid> without_false_shadow(

@@ -21,8 +21,8 @@ struct ShadowRegion {
   Eigen::Vector3d centroid_m;   ///< mean of the voxels' centres, world frame
 };
 
-/// The connected regions of a grid's shadow: voxels are connected where they share a face. Revealed
-/// voxels are not shadow any more.
+/// The connected components of a grid's shadow: voxels are connected where they share a face.
+/// Revealed voxels are not shadow any more.
 ///
 /// Immutable and thread-safe. Memory is proportional to the blocks of 8³ voxels that hold shadow.
 /// Runs in the caller's task arena; the result is the same at any number of threads.

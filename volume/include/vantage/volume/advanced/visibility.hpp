@@ -24,8 +24,9 @@ namespace vantage {
 ///
 /// The surface moves away from the camera by `offset_sigmas` times what the noise is in inverse
 /// depth: in depth that is σ(z), to first order. What is measured too near by chance, before the
-/// floor and the walls of objects, is then no unseen sliver. The default is where more begins to
-/// cost hidden volume and takes hardly more slivers away (`vantage evaluate shadow-filters`).
+/// floor and the walls of objects, is then no unseen sliver. The default is where a larger offset
+/// begins to cost hidden volume and removes few further slivers (`vantage evaluate
+/// shadow-filters`).
 /// @param noise of the camera's depths.
 /// @returns nothing if the camera does not have the work area in its image, or measured nothing
 /// there.
