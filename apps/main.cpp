@@ -31,6 +31,7 @@ void add_commands(CLI::App& app, Action& action) {
   add_plan_command(app, action);
   add_demo_command(app, action);
   add_reconstruct_command(app, action);
+  add_track_command(app, action);
   add_validate_command(app, action);
   add_simulate_command(app, action);
   add_import_command(app, action);

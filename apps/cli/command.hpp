@@ -25,6 +25,7 @@ void add_demo_command(CLI::App& app, Action& action);
 void add_validate_command(CLI::App& app, Action& action);
 void add_simulate_command(CLI::App& app, Action& action);
 void add_reconstruct_command(CLI::App& app, Action& action);
+void add_track_command(CLI::App& app, Action& action);
 void add_render_command(CLI::App& app, Action& action);
 void add_import_command(CLI::App& app, Action& action);
 void add_evaluate_command(CLI::App& app, Action& action);

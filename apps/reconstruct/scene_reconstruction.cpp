@@ -17,18 +17,6 @@ bool is_recognisable(const TypePtr& type) {
   return !type->features.empty();
 }
 
-/// @returns whether there are types to look for.
-bool check_knowledge(const Workcell& workcell, bool cameras_suffice) {
-  const auto& types = workcell.knowledge->types();
-  if (std::any_of(types.begin(), types.end(), is_recognisable)) return true;
-  if (cameras_suffice && workcell.board && !workcell.board->markers.empty()) return false;
-  throw bad_input(
-      workcell.files.empty() ? "workcell" : workcell.files.front().string(),
-      types.empty()
-          ? "there is no knowledge_base to recognise objects by; name its file in the workcell"
-          : "no type of the knowledge base has features to recognise objects by");
-}
-
 /// The plate of the board, as a thing that hides what is behind it.
 KnownObject plate_of(const Board& board) {
   const Eigen::Vector3d size(board.size_m.x(), board.size_m.y(), board.thickness_m);
@@ -52,7 +40,9 @@ std::vector<std::vector<Eigen::Vector3d>> seen_corners(const Board& board,
   return seen;
 }
 
-SceneKnowledge knowledge_of(const Workcell& workcell, const ObservedScene& observed) {
+}  // namespace
+
+SceneKnowledge scene_knowledge(const Workcell& workcell, const ObservedScene& observed) {
   SceneKnowledge knowledge{known(workcell.static_structures)};
   if (!workcell.board) return knowledge;
   knowledge.solids.push_back(plate_of(*workcell.board));
@@ -60,7 +50,16 @@ SceneKnowledge knowledge_of(const Workcell& workcell, const ObservedScene& obser
   return knowledge;
 }
 
-}  // namespace
+bool check_knowledge(const Workcell& workcell, bool cameras_suffice) {
+  const auto& types = workcell.knowledge->types();
+  if (std::any_of(types.begin(), types.end(), is_recognisable)) return true;
+  if (cameras_suffice && workcell.board && !workcell.board->markers.empty()) return false;
+  throw bad_input(
+      workcell.files.empty() ? "workcell" : workcell.files.front().string(),
+      types.empty()
+          ? "there is no knowledge_base to recognise objects by; name its file in the workcell"
+          : "no type of the knowledge base has features to recognise objects by");
+}
 
 void check_cameras(const BopScene& scene, const ObservedScene& observed) {
   std::vector<std::string> reasons;
@@ -111,7 +110,7 @@ SceneReconstruction reconstruct_scene(const BopScene& scene, const Workcell& wor
   const auto start = std::chrono::steady_clock::now();
   all.result =
       reconstruct(settings.method, all.observed.views, *workcell.knowledge, settings.options, stop);
-  reject_contradicted(all.observed.views, knowledge_of(workcell, all.observed), all.result);
+  reject_contradicted(all.observed.views, scene_knowledge(workcell, all.observed), all.result);
   warn_of_motion(all.observed.views, *workcell.knowledge, settings.options, stop, all.result);
   all.reconstruct_s =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "reconstruct/observed_scene.hpp"
+#include "vantage/reconstruction/check_scene.hpp"
 #include "vantage/reconstruction/reconstruct.hpp"
 
 namespace vantage {
@@ -40,6 +41,13 @@ Reconstruction reconstruct(ReconstructionMethod method, std::span<const CameraVi
 
 /// @throws Error bad_input if no camera could be located, with each one's reason.
 void check_cameras(const BopScene& scene, const ObservedScene& observed);
+
+/// What the workcell and the located cameras say of the scene beside its objects.
+SceneKnowledge scene_knowledge(const Workcell& workcell, const ObservedScene& observed);
+
+/// Whether the workcell has types that can be recognised.
+/// @throws Error bad_input if not, unless it has a board and `cameras_suffice`.
+bool check_knowledge(const Workcell& workcell, bool cameras_suffice);
 
 /// Detects, locates and reconstructs. Runs in the caller's task arena.
 /// @throws Error bad_input as `observe` does; if no camera could be located, with each one's

@@ -15,5 +15,6 @@ const nlohmann::json& planning_schema();
 const nlohmann::json& shadow_filters_schema();
 const nlohmann::json& replay_schema();
 const nlohmann::json& views_schema();
+const nlohmann::json& sequence_schema();
 
 }  // namespace vantage

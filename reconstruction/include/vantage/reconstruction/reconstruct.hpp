@@ -25,6 +25,7 @@ struct Support {
   ObservationId id;
   std::size_t feature = 0;  ///< of the object's type
   double residual_px = 0;   ///< root mean square over its points; of a pose or a label: 0
+  bool operator==(const Support&) const = default;
 };
 
 /// Another explanation of the same observations.
