@@ -166,8 +166,8 @@ class YamlReader {
     if (kind == "float" && value->is_number()) return value->get<double>();
     if ((kind == "int" && !value->is_number_integer()) || (kind == "float") ||
         (kind == "bool" && !value->is_boolean()) || (kind == "null" && !value->is_null())) {
-      builder_.fail(at, fmt::format("found {}, which is not a {} as its tag !!{} says", shown(text),
-                                    kind, kind));
+      builder_.fail(
+          at, fmt::format("found {}; expected {}, as its tag !!{} says", shown(text), kind, kind));
     }
     return *value;
   }

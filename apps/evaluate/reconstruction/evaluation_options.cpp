@@ -146,7 +146,8 @@ void EvaluationCommandOptions::resolve() {
 nlohmann::ordered_json EvaluationCommandOptions::config() const {
   nlohmann::ordered_json result = config_of(how);
   result.erase("method");
-  result.update({{"dataset", dataset.string()}, {"workcell", workcell.string()}, {"images", images}});
+  result.update(
+      {{"dataset", dataset.string()}, {"workcell", workcell.string()}, {"images", images}});
   EvaluationCommandOptions described = *this;
   result.update(to_json(fields_of(described)));
   return result;

@@ -61,7 +61,7 @@ void MeshBuilder::fail_at(const BadVertex& bad) const {
 }
 
 void MeshBuilder::add_polygon(std::span<const std::int64_t> corners, std::uint64_t vertex_count,
-                                const FilePlace& place) {
+                              const FilePlace& place) {
   for (const std::int64_t index : corners) {
     if (index >= 0 && std::uint64_t(index) < vertex_count) continue;
     place.fail(
@@ -131,7 +131,7 @@ void MeshBuilder::remove_bad_vertices() {
   }
   const BadVertex& first = bad_vertices_.front();
   remarks_.push_back(fmt::format(
-      "{}: {} {} that no face uses {} not finite, the first being {}; left out", first.place.text(),
+      "{}: {} {} that no face uses {} invalid, the first being {}; left out", first.place.text(),
       bad_vertices_.size(), bad_vertices_.size() == 1 ? "vertex" : "vertices",
       bad_vertices_.size() == 1 ? "is" : "are", to_text(first.p_file)));
 }

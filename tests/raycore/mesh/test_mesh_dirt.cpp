@@ -52,7 +52,7 @@ TEST_CASE("vertices that are not finite matter only to faces that use them") {
                 "v 0 0 -1e9\n" + replaced(replaced(replaced(obj, "f 1 3 2", "f 2 4 3"),
                                                    "f 1/1 2/1 4/1", "f 2 3 5"),
                                           "f 2//1 3//1 4//1", "f 3 4 5"),
-                {"a.obj:1", "1 vertex that no face uses is not finite"});
+                {"a.obj:1", "1 vertex that no face uses is invalid"});
   std::string ply = replaced(test::ply("ascii"), "vertex 4", "vertex 5");
   ply = replaced(ply, "0 0 1 7\n", "0 0 1 7\nnan nan 0 7\n");
   expect_remark("a.ply", ply, {"a.ply:20"});
