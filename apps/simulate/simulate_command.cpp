@@ -19,7 +19,7 @@
 #include "options/sensor_fields.hpp"
 #include "options/sequence_fields.hpp"
 #include "process/result_output.hpp"
-#include "simulate/sequence/sequence_recording.hpp"
+#include "simulate/sequence_recording.hpp"
 #include "simulate/simulated_dataset.hpp"
 #include "simulate/simulation_record.hpp"
 #include "vantage/raycore/error.hpp"

@@ -1,4 +1,4 @@
-#include "simulate/sequence/sequence_scenes.hpp"
+#include "simulate/sequence_scenes.hpp"
 
 namespace vantage {
 namespace {

@@ -1,10 +1,10 @@
-#include "simulate/sequence/sequence_recording.hpp"
+#include "simulate/sequence_recording.hpp"
 
 #include <fmt/format.h>
 
 #include "process/output_folder.hpp"
 #include "process/result_output.hpp"
-#include "simulate/sequence/sequence_scenes.hpp"
+#include "simulate/sequence_scenes.hpp"
 #include "simulator/scene/sample_hash.hpp"
 #include "vantage/raycore/detail/file.hpp"
 

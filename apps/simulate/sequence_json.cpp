@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "cli/pose_json.hpp"
-#include "simulate/sequence/sequence_recording.hpp"
+#include "simulate/sequence_recording.hpp"
 #include "version.hpp"
 
 namespace vantage {
