@@ -52,9 +52,8 @@ void add_events(const SequenceObject& object, Json& events) {
 }  // namespace
 
 Json sequence_to_json(const SequencePlan& plan, const Workcell& workcell) {
-  Json json{{"vantage", kVersion},         {"period_s", plan.period_s},
-            {"cameras", Json::array()},    {"arm", plan.arm.has_value()},
-            {"objects", Json::array()},    {"events", Json::array()},
+  Json json{{"vantage", kVersion},         {"period_s", plan.period_s}, {"cameras", Json::array()},
+            {"arm", plan.arm.has_value()}, {"objects", Json::array()},  {"events", Json::array()},
             {"instants", Json::array()}};
   for (const CellCamera& camera : workcell.cameras) json["cameras"].push_back(camera.name);
   std::vector<Json> events;

@@ -32,8 +32,8 @@ SceneAtTime SequenceScenes::at(double time_s) {
   for (const ObjectAtTime& at : moment.objects) {
     const SequenceObject& object = plan_.objects[at.object];
     bodies.push_back({object.name, looks_.of(object.type), at.T_world_object});
-    known_objects.push_back({object.name, object.type->mesh, at.T_world_object, object.type,
-                             object.type->color});
+    known_objects.push_back(
+        {object.name, object.type->mesh, at.T_world_object, object.type, object.type->color});
   }
   for (const ArmPart& part : moment.arm) {
     std::shared_ptr<const TexturedMesh>& look = arm_looks_[part.mesh.get()];

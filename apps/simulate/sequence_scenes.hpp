@@ -15,8 +15,8 @@ struct SceneAtTime {
   std::vector<PlacedObject> known_objects;  ///< of the plan, and those that never move
 };
 
-/// A workcell over time, with its objects' looks and the arm, which is foreign. Not for many threads
-/// at once.
+/// A workcell over time, with its objects' looks and the arm, which is foreign. Not for many
+/// threads at once.
 class SequenceScenes {
  public:
   /// @param workcell its known objects of a type are the plan's. Both have to outlive this.

@@ -104,8 +104,9 @@ void add_sequence_options(CLI::App& verb, SimulateOptions& a) {
   add_fields(verb, group, a.given_sequence);
   verb.add_flag("--no-arm", a.no_arm, "No arm carries the objects and passes over the table")
       ->group(group.heading);
-  verb.add_option("--delay", a.delays,
-                  "A camera that is out of step: CAMERA=SECONDS, so much later it takes its picture")
+  verb.add_option(
+          "--delay", a.delays,
+          "A camera that is out of step: CAMERA=SECONDS, so much later it takes its picture")
       ->group(group.heading);
 }
 
@@ -202,10 +203,10 @@ ExitCode simulate(const SimulateOptions& options) {
 }  // namespace
 
 void add_simulate_command(CLI::App& app, Action& action) {
-  CLI::App* verb = app.add_subcommand(
-      "simulate",
-      "Record a workcell with simulated cameras, as a BOP scene folder with its truth; or over time, "
-      "as one folder for each instant");
+  CLI::App* verb = app.add_subcommand("simulate",
+                                      "Record a workcell with simulated cameras, as a BOP scene "
+                                      "folder with its truth; or over time, "
+                                      "as one folder for each instant");
   const auto options = std::make_shared<SimulateOptions>();
   verb->add_option("workcell", options->workcell,
                    "Workcell file (YAML) with cameras and what stands before them")

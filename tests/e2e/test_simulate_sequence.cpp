@@ -40,7 +40,8 @@ sequence:
 
 test::CommandResult record(const fs::path& cell, const fs::path& folder,
                            const std::string& options = "") {
-  return run_vantage("simulate" + quoted(cell) + " -o" + quoted(folder) + " --samples 1 " + options);
+  return run_vantage("simulate" + quoted(cell) + " -o" + quoted(folder) + " --samples 1 " +
+                     options);
 }
 
 double true_x(const json& scene_gt, const fs::path& folder, int camera) {
@@ -89,9 +90,8 @@ TEST_CASE("each instant of a sequence is reconstructed with the sequence's workc
   const test::TemporaryFolder folder;
   const fs::path cell = folder.write("cell.yaml", two_camera_cell());
   REQUIRE(record(cell, folder / "out", "--no-arm").exit_code == 0);
-  const auto result =
-      run_vantage("reconstruct" + quoted(folder / "out/000004") + " --workcell" +
-                  quoted(folder / "out/workcell.yaml") + " --json");
+  const auto result = run_vantage("reconstruct" + quoted(folder / "out/000004") + " --workcell" +
+                                  quoted(folder / "out/workcell.yaml") + " --json");
   CAPTURE(result.err);
   REQUIRE(result.exit_code == 0);
   const json objects = result.json()["objects"];

@@ -74,11 +74,8 @@ class ObjectTruth {
   }
 
   void add(int instant, const Pose& pose, bool judged) {
-    TruthAt at{.id = object_.id,
-               .type = type_,
-               .T_world_object = pose,
-               .since = since_,
-               .judged = judged};
+    TruthAt at{
+        .id = object_.id, .type = type_, .T_world_object = pose, .since = since_, .judged = judged};
     if (!judged && known_ != nullptr) at.excused.push_back(known_->T_world_object);
     truth_.frames[std::size_t(instant)].push_back(std::move(at));
   }

@@ -65,8 +65,7 @@ void add_reports(const TrackedScene& scene, int instant, const TypeModels& types
   for (const TrackEvent& event : scene.events) {
     const auto kind = kind_of(event.kind);
     if (!kind) continue;
-    reports.push_back(
-        {*kind, types.index.at(event.type.get()), instant, event.from, event.to});
+    reports.push_back({*kind, types.index.at(event.type.get()), instant, event.from, event.to});
   }
 }
 
@@ -99,8 +98,7 @@ class Benchmark {
       for (std::size_t i = 0; i < run.frames.size(); ++i) run.frames[i].truth = truth.frames[i];
     }
     for (const TrackedRun& run : played->runs) {
-      scores.push_back(
-          tracking_scores(run, played->runs.front(), truth.events, types_.models));
+      scores.push_back(tracking_scores(run, played->runs.front(), truth.events, types_.models));
     }
     return scores;
   }
@@ -125,8 +123,7 @@ class Benchmark {
     return trackers;
   }
 
-  std::optional<PlayedSequence> play(const SequenceSimulator& simulator,
-                                     std::uint64_t seed) const {
+  std::optional<PlayedSequence> play(const SequenceSimulator& simulator, std::uint64_t seed) const {
     PlayedSequence played;
     played.runs.resize(trackers_.size() + 1);
     const std::vector<SnapshotTracker> trackers = started(simulator);
@@ -176,7 +173,8 @@ TrackingEvaluation evaluate_tracking(const Workcell& workcell,
   });
   TrackingEvaluation evaluation;
   evaluation.trackers.push_back({"snapshots", {}});
-  for (const EvaluatedTracker& tracker : trackers) evaluation.trackers.push_back({tracker.name, {}});
+  for (const EvaluatedTracker& tracker : trackers)
+    evaluation.trackers.push_back({tracker.name, {}});
   for (const std::vector<TrackingScores>& one : scores) {
     if (one.empty()) continue;
     ++evaluation.sequences;

@@ -41,8 +41,8 @@ struct EvaluatedTracking {
 };
 
 struct TrackingEvaluation {
-  std::size_t sequences = 0;  ///< that are complete
-  bool partial = false;       ///< stopped before all were
+  std::size_t sequences = 0;                ///< that are complete
+  bool partial = false;                     ///< stopped before all were
   std::vector<EvaluatedTracking> trackers;  ///< "snapshots" first
 };
 

@@ -18,9 +18,12 @@ Json jitter_json(const JitterSums& sums) {
 }
 
 Json events_json(const EventScores& events) {
-  return {{"true", events.events},       {"reported", events.reports},
-          {"found", events.found},       {"precision", events.precision()},
-          {"recall", events.recall()},   {"moves", events.moves},
+  return {{"true", events.events},
+          {"reported", events.reports},
+          {"found", events.found},
+          {"precision", events.precision()},
+          {"recall", events.recall()},
+          {"moves", events.moves},
           {"moves_found", events.moves_found},
           {"delays_instants", events.delays}};
 }

@@ -16,8 +16,8 @@ std::vector<ReportTable> tracking_tables(const TrackingEvaluation& evaluation);
 
 /// What tracking has to reach, and whether it does.
 struct TrackingGoal {
-  std::string name;    ///< as people write it, e.g. "HOTA >= 0.95"
-  std::string found;   ///< likewise
+  std::string name;   ///< as people write it, e.g. "HOTA >= 0.95"
+  std::string found;  ///< likewise
   bool reached = false;
 };
 

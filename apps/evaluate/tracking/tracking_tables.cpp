@@ -39,13 +39,11 @@ ReportTable identity_table(const TrackingEvaluation& evaluation) {
                                 {"phantoms/instant"}}};
   for (const EvaluatedTracking& tracker : evaluation.trackers) {
     const TrackingScores& s = tracker.scores;
-    table.rows.push_back({{tracker.name, fmt::format("{:.4f}", s.hota.hota),
-                           fmt::format("{:.4f}", s.hota.detection),
-                           fmt::format("{:.4f}", s.hota.association),
-                           fmt::format("{:.4f}", s.identity.f1()),
-                           fmt::format("{:.4f}", s.clear.accuracy()),
-                           std::to_string(s.clear.switches), std::to_string(s.clear.type_switches),
-                           fmt::format("{:.4f}", s.phantoms_per_instant())}});
+    table.rows.push_back(
+        {{tracker.name, fmt::format("{:.4f}", s.hota.hota), fmt::format("{:.4f}", s.hota.detection),
+          fmt::format("{:.4f}", s.hota.association), fmt::format("{:.4f}", s.identity.f1()),
+          fmt::format("{:.4f}", s.clear.accuracy()), std::to_string(s.clear.switches),
+          std::to_string(s.clear.type_switches), fmt::format("{:.4f}", s.phantoms_per_instant())}});
   }
   table.note = "snapshots: each reconstructed alone, ids by the nearest of the snapshot before.";
   return table;
@@ -65,11 +63,10 @@ ReportTable event_table(const TrackingEvaluation& evaluation) {
   for (const EvaluatedTracking& tracker : evaluation.trackers) {
     const EventScores& e = tracker.scores.events;
     const Lag& lag = tracker.scores.lag;
-    table.rows.push_back({{tracker.name, fmt::format("{:.4f}", e.precision()),
-                           fmt::format("{:.4f}", e.recall()),
-                           fmt::format("{} of {}", e.moves_found, e.moves), mean_of(e.delays),
-                           largest_of(e.delays), mean_of(lag.instants), largest_of(lag.instants),
-                           std::to_string(lag.unsettled)}});
+    table.rows.push_back(
+        {{tracker.name, fmt::format("{:.4f}", e.precision()), fmt::format("{:.4f}", e.recall()),
+          fmt::format("{} of {}", e.moves_found, e.moves), mean_of(e.delays), largest_of(e.delays),
+          mean_of(lag.instants), largest_of(lag.instants), std::to_string(lag.unsettled)}});
   }
   table.note =
       "Delay and lag in instants: from when a camera shows the object where it now stands to the "
@@ -91,13 +88,13 @@ ReportTable pose_table(const TrackingEvaluation& evaluation) {
     const ComparedJitter& jitter = tracker.scores.jitter;
     const Jitter own = jitter.tracked.jitter();
     const PoseConsistency& c = tracker.scores.consistency;
-    table.rows.push_back({{tracker.name, fmt::format("{:.4f}", own.translation_m * kMillimetres),
-                           fmt::format("{:.4f}", own.rotation_rad * kDegrees),
-                           fmt::format("{:.2f}", jitter_ratio(jitter, &Jitter::translation_m)),
-                           fmt::format("{:.2f}", jitter_ratio(jitter, &Jitter::rotation_rad)),
-                           fmt::format("{:.2f}", c.mean()),
-                           fmt::format("{:.2f} to {:.2f}", c.low(), c.high()),
-                           fmt::format("{:.1f} %", 100 * c.coverage())}});
+    table.rows.push_back(
+        {{tracker.name, fmt::format("{:.4f}", own.translation_m * kMillimetres),
+          fmt::format("{:.4f}", own.rotation_rad * kDegrees),
+          fmt::format("{:.2f}", jitter_ratio(jitter, &Jitter::translation_m)),
+          fmt::format("{:.2f}", jitter_ratio(jitter, &Jitter::rotation_rad)),
+          fmt::format("{:.2f}", c.mean()), fmt::format("{:.2f} to {:.2f}", c.low(), c.high()),
+          fmt::format("{:.1f} %", 100 * c.coverage())}});
   }
   table.note =
       "Jitter: standard deviation over time, beside that of the snapshots at the same instants. "

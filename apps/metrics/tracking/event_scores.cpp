@@ -15,8 +15,8 @@ bool same_place(const std::optional<Pose>& truth, const std::optional<Pose>& rep
 
 bool is_right(const ReportedEvent& report, const TrueEvent& event,
               std::span<const ErrorModel> models) {
-  return report.kind == event.kind && report.type == event.type &&
-         report.instant >= event.begin && report.instant <= event.due + kEventDelay &&
+  return report.kind == event.kind && report.type == event.type && report.instant >= event.begin &&
+         report.instant <= event.due + kEventDelay &&
          same_place(event.from, report.from, models[event.type]) &&
          same_place(event.to, report.to, models[event.type]);
 }

@@ -41,8 +41,7 @@ struct TrackCounts {
   double alignment(const TrackPair& pair) const {
     const auto found = potential.find(pair);
     if (found == potential.end()) return 0;
-    return found->second /
-           (truth.at(pair.first) + estimates.at(pair.second) - found->second);
+    return found->second / (truth.at(pair.first) + estimates.at(pair.second) - found->second);
   }
 };
 

@@ -36,7 +36,8 @@ std::vector<bool> excused_estimates(const TrackFrame& frame, std::span<const Err
   Eigen::MatrixXd all(Eigen::Index(frame.truth.size()), Eigen::Index(frame.estimates.size()));
   for (Eigen::Index t = 0; t < all.rows(); ++t) {
     for (Eigen::Index e = 0; e < all.cols(); ++e) {
-      all(t, e) = similarity_of(frame.truth[std::size_t(t)], frame.estimates[std::size_t(e)], models);
+      all(t, e) =
+          similarity_of(frame.truth[std::size_t(t)], frame.estimates[std::size_t(e)], models);
     }
   }
   std::vector<bool> excused(frame.estimates.size(), false);

@@ -35,7 +35,8 @@ std::vector<NearPair> near_pairs(const TrackFrame& before, const TrackFrame& now
       const double distance_m = (before.estimates[b].T_world_object.translation() -
                                  now.estimates[n].T_world_object.translation())
                                     .norm();
-      if (distance_m < models[now.estimates[n].type].diameter_m) pairs.push_back({distance_m, b, n});
+      if (distance_m < models[now.estimates[n].type].diameter_m)
+        pairs.push_back({distance_m, b, n});
     }
   }
   std::ranges::sort(pairs);

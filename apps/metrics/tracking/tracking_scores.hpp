@@ -26,7 +26,8 @@ struct TrackingScores {
   Lag lag = {};
   ComparedJitter jitter = {};  ///< beside that of the single snapshots
   PoseConsistency consistency = {};
-  std::size_t phantoms = 0;  ///< estimates that no true object of their type is near, of all instants
+  std::size_t phantoms =
+      0;  ///< estimates that no true object of their type is near, of all instants
 
   double phantoms_per_instant() const {
     return instants == 0 ? 0 : double(phantoms) / double(instants);
@@ -41,8 +42,8 @@ TrackingScores tracking_scores(const TrackedRun& run, const TrackedRun& single,
                                std::span<const ErrorModel> models);
 
 /// Gives ids to the estimates of each frame alone: each takes, the nearest pair first, that of the
-/// estimate of its type in the frame before that is within a diameter, else a new one. What tracking
-/// is held against.
+/// estimate of its type in the frame before that is within a diameter, else a new one. What
+/// tracking is held against.
 void number_by_nearest(std::vector<TrackFrame>& frames, std::span<const ErrorModel> models);
 
 }  // namespace vantage

@@ -30,8 +30,7 @@ void append(std::vector<Eigen::Vector3f>& vertices, std::vector<Triangle>& trian
 TriangleMesh capsule(double radius_m, double length_m) {
   std::vector<Eigen::Vector3f> vertices;
   std::vector<Triangle> triangles;
-  append(vertices, triangles, cylinder_solid(radius_m, length_m, kSegments),
-         {0, 0, length_m / 2});
+  append(vertices, triangles, cylinder_solid(radius_m, length_m, kSegments), {0, 0, length_m / 2});
   const TriangleMesh ball = sphere_solid(radius_m, kSegments);
   append(vertices, triangles, ball, Eigen::Vector3d::Zero());
   append(vertices, triangles, ball, {0, 0, length_m});
@@ -74,15 +73,16 @@ std::vector<ArmPart> Arm::at(const Eigen::Vector3d& tip) const {
   if (line.norm() > most) wrist = shoulder_ + most * line.normalized();
   if ((wrist - shoulder_).norm() < kMinReachM / 10) wrist.z() += kMinReachM;
   const Eigen::Vector3d elbow = elbow_for(wrist);
-  return {{"upper arm", link_, along(shoulder_, elbow)},
-          {"forearm", link_, along(elbow, wrist)},
-          {"gripper", gripper_,
-           Pose::from_translation(wrist - Eigen::Vector3d(0, 0, kGripperM / 2))}};
+  return {
+      {"upper arm", link_, along(shoulder_, elbow)},
+      {"forearm", link_, along(elbow, wrist)},
+      {"gripper", gripper_, Pose::from_translation(wrist - Eigen::Vector3d(0, 0, kGripperM / 2))}};
 }
 
 Eigen::Vector3d ArmPath::at(double time_s) const {
   if (points.empty()) throw bad_input("arm", "its path has no points; expected one or more");
-  const auto after = std::ranges::find_if(points, [&](const Point& p) { return p.time_s > time_s; });
+  const auto after =
+      std::ranges::find_if(points, [&](const Point& p) { return p.time_s > time_s; });
   if (after == points.begin()) return points.front().tip;
   if (after == points.end()) return points.back().tip;
   const auto before = after - 1;

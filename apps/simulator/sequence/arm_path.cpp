@@ -21,7 +21,8 @@ struct Carry {
 
 double reach_of_mesh(const TriangleMesh& mesh) {
   double reach = 0;
-  for (const Eigen::Vector3f& vertex : mesh.vertices()) reach = std::max(reach, double(vertex.norm()));
+  for (const Eigen::Vector3f& vertex : mesh.vertices())
+    reach = std::max(reach, double(vertex.norm()));
   return reach;
 }
 

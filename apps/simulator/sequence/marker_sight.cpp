@@ -24,7 +24,8 @@ bool hidden(const Pose& T_world_marker, double size_m, const Eigen::Vector3d& ey
   for (int i = 0; i < kRaysAlongSide; ++i) {
     for (int j = 0; j < kRaysAlongSide; ++j) {
       const auto along = [&](int n) { return half * (2.0 * n / (kRaysAlongSide - 1) - 1); };
-      const Eigen::Vector3d point = T_world_marker * Eigen::Vector3d(along(i), along(j), kAboveSurfaceM);
+      const Eigen::Vector3d point =
+          T_world_marker * Eigen::Vector3d(along(i), along(j), kAboveSurfaceM);
       if (scene.occluded(point.cast<float>(), eye.cast<float>())) return true;
     }
   }

@@ -21,9 +21,10 @@ Stay& stay_that_ends(SequencePlan& plan, const std::string& name, double time_s,
   }
   Stay& last = object->stays.back();
   if (last.from_s < time_s && std::isinf(last.to_s)) return last;
-  throw bad_input(place, fmt::format("'{}' does not stand anywhere at {} s; expected a time after "
-                                     "its last event, which ends at {} s",
-                                     name, time_s, std::isinf(last.to_s) ? last.from_s : last.to_s));
+  throw bad_input(place,
+                  fmt::format("'{}' does not stand anywhere at {} s; expected a time after "
+                              "its last event, which ends at {} s",
+                              name, time_s, std::isinf(last.to_s) ? last.from_s : last.to_s));
 }
 
 void add_move(SequencePlan& plan, const PlannedMove& move) {

@@ -102,8 +102,9 @@ class RandomEvents {
       if (last.from_s < time_s && std::isinf(last.to_s)) standing.push_back(i);
     }
     if (standing.empty()) {
-      throw bad_input("moves", "no object is left that could be moved or taken away; plan fewer "
-                               "events, or more objects");
+      throw bad_input("moves",
+                      "no object is left that could be moved or taken away; plan fewer "
+                      "events, or more objects");
     }
     return standing[std::size_t(draw(SequenceDraw::object, event) * double(standing.size()))];
   }
@@ -142,9 +143,8 @@ class RandomEvents {
   bool seen_at(const ObjectType& type, const Pose& place, double time_s,
                const SequenceObject* moved) const {
     SequenceMoment moment = moment_at(plan_, time_s - plan_.period_s / 4);
-    std::erase_if(moment.objects, [&](const ObjectAtTime& o) {
-      return &plan_.objects[o.object] == moved;
-    });
+    std::erase_if(moment.objects,
+                  [&](const ObjectAtTime& o) { return &plan_.objects[o.object] == moved; });
     std::vector<KnownObject> fixed = scene_.fixed;
     fixed.push_back({"moved", type.mesh, place});
     return likely_seen(type, place, scene_.cameras, *scene_of(plan_, moment, fixed));
@@ -174,10 +174,10 @@ void RandomSequence::check() const {
   const int events = moves + added + taken_away;
   const double room = instants - 2 * kQuietInstants;
   if (events > 0 && room < events * (carry_instants + 1.0)) {
-    throw bad_input("instants",
-                    fmt::format("found {} for {} events of {} instants; expected {} or more",
-                                instants, events, carry_instants,
-                                2 * kQuietInstants + events * (carry_instants + 1)));
+    throw bad_input(
+        "instants",
+        fmt::format("found {} for {} events of {} instants; expected {} or more", instants, events,
+                    carry_instants, 2 * kQuietInstants + events * (carry_instants + 1)));
   }
 }
 

@@ -16,9 +16,10 @@ namespace vantage {
 struct SequenceScene {
   /// Objects at the start, at rest; their `stays` are one without an end.
   std::vector<SequenceObject> objects;
-  Box floor;                           ///< objects stand on its lower face
-  std::vector<KnownObject> obstacles;  ///< of what rises above the floor, what objects must not touch
-  std::vector<KnownObject> fixed;      ///< everything that never moves, as cameras see it
+  Box floor;  ///< objects stand on its lower face
+  std::vector<KnownObject>
+      obstacles;                   ///< of what rises above the floor, what objects must not touch
+  std::vector<KnownObject> fixed;  ///< everything that never moves, as cameras see it
   std::vector<SequenceCamera> cameras;
 };
 
@@ -27,7 +28,7 @@ struct RandomSequence {
   int instants = 200;
   double period_s = 0.1;
   int moves = 10, added = 0, taken_away = 0;
-  int carry_instants = 5;     ///< that a move takes
+  int carry_instants = 5;      ///< that a move takes
   double visible_share = 0.5;  ///< of moves through the air; the others in a closed hand
   bool arm = true;             ///< carries, and passes in between
   std::uint64_t seed = 0;

@@ -48,7 +48,8 @@ std::optional<ObjectAtTime> object_at(const SequenceObject& object, std::size_t 
 }  // namespace
 
 void SequencePlan::check() const {
-  if (instants < 1) throw bad_input("instants", fmt::format("found {}; expected 1 or more", instants));
+  if (instants < 1)
+    throw bad_input("instants", fmt::format("found {}; expected 1 or more", instants));
   if (!(period_s > 0) || !std::isfinite(period_s)) {
     throw bad_input("period_s", fmt::format("found {}; expected seconds above 0", period_s));
   }
@@ -60,8 +61,8 @@ void SequencePlan::check() const {
   for (const SequenceObject& object : objects) {
     check_stays(object);
     if (object.id == 0 || !ids.insert(object.id).second) {
-      throw bad_input(object.name, fmt::format("found id {}; expected one of its own, from 1",
-                                               object.id));
+      throw bad_input(object.name,
+                      fmt::format("found id {}; expected one of its own, from 1", object.id));
     }
   }
 }
@@ -77,10 +78,11 @@ SequenceMoment moment_at(const SequencePlan& plan, double time_s) {
 
 Pose carried_pose(const Pose& from, const Pose& to, double share) {
   const double across = std::clamp((share - kLifted) / (kLowering - kLifted), 0.0, 1.0);
-  Eigen::Vector3d place =
-      from.translation() + across * (to.translation() - from.translation());
-  place.z() += kLiftM * std::clamp(std::min(share / kLifted, (1 - share) / (1 - kLowering)), 0.0, 1.0);
-  return Pose::from_quaternion(from.quaternion().slerp(across, to.quaternion()).normalized(), place);
+  Eigen::Vector3d place = from.translation() + across * (to.translation() - from.translation());
+  place.z() +=
+      kLiftM * std::clamp(std::min(share / kLifted, (1 - share) / (1 - kLowering)), 0.0, 1.0);
+  return Pose::from_quaternion(from.quaternion().slerp(across, to.quaternion()).normalized(),
+                               place);
 }
 
 }  // namespace vantage

@@ -127,9 +127,9 @@ SimulatedInstant SequenceSimulator::at(int instant) const {
     const auto& [moment, scene] = scenes.at(result.time_s + plan_.delay_s(c));
     CameraView view{camera.name, camera.lens, camera.camera.T_world_cam()};
     for (const ObjectAtTime& object : moment.objects) {
-      const auto found = observe_object(*plan_.objects[object.object].type, object.T_world_object,
-                                        camera, *scene, sensor_.sigma_px,
-                                        sample_hash(seed_, instant, c, object.object));
+      const auto found =
+          observe_object(*plan_.objects[object.object].type, object.T_world_object, camera, *scene,
+                         sensor_.sigma_px, sample_hash(seed_, instant, c, object.object));
       if (!found.empty()) result.seen[object.object] = true;
       view.observations.insert(view.observations.end(), found.begin(), found.end());
     }

@@ -24,7 +24,8 @@ double best_by_trying(const Eigen::MatrixXd& gains, Eigen::Index row, std::vecto
 }
 
 Eigen::MatrixXd random_gains(Random& random) {
-  const auto rows = Eigen::Index(random.uniform(0, 6)), columns = Eigen::Index(random.uniform(0, 6));
+  const auto rows = Eigen::Index(random.uniform(0, 6)),
+             columns = Eigen::Index(random.uniform(0, 6));
   Eigen::MatrixXd gains(rows, columns);
   for (double& gain : gains.reshaped()) gain = std::max(0.0, random.uniform(-0.5, 1));
   return gains;

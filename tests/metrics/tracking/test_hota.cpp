@@ -24,7 +24,7 @@ TEST_CASE("half of the instants missed, and a phantom: DetA counts both") {
     frames.push_back(i < 2 ? compared_frame(1, {{1, 1}}) : compared_frame(1, {{2, 0}}));
   }
   const HotaScores scores = hota(frames);
-  CHECK(scores.detection == Approx(2.0 / 6));   // 2 hits, 2 misses, 2 phantoms
+  CHECK(scores.detection == Approx(2.0 / 6));    // 2 hits, 2 misses, 2 phantoms
   CHECK(scores.association == Approx(2.0 / 4));  // each hit: 2 common, 2 more of the truth
   CHECK(scores.hota == Approx(std::sqrt(2.0 / 6 * 2.0 / 4)));
 }

@@ -24,10 +24,8 @@ StandingErrors errors_along_x(std::vector<double> metres, int since = 0, std::ui
 }  // namespace
 
 TEST_CASE("a pose's error is in the world's frame, as its covariance is") {
-  const Eigen::Matrix3d turn =
-      Eigen::AngleAxisd(0.1, Eigen::Vector3d::UnitZ()).toRotationMatrix();
-  const Eigen::Matrix3d truth =
-      Eigen::AngleAxisd(1, Eigen::Vector3d::UnitX()).toRotationMatrix();
+  const Eigen::Matrix3d turn = Eigen::AngleAxisd(0.1, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  const Eigen::Matrix3d truth = Eigen::AngleAxisd(1, Eigen::Vector3d::UnitX()).toRotationMatrix();
   const auto error = pose_error(Pose::from_rotation(turn * truth, {1, 2, 3}),
                                 Pose::from_rotation(truth, {1, 2, 2.5}));
   CHECK(error.head<3>().isApprox(Eigen::Vector3d(0, 0, 0.5), 1e-12));

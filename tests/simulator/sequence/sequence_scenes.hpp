@@ -42,7 +42,8 @@ inline SequenceScene six_cubes() {
                                   sequence_camera("right", {0.42, -0.4, 0.5}),
                                   sequence_camera("back", {0, 0.55, 0.5})}};
   for (std::uint64_t i = 0; i < 6; ++i) {
-    const Pose pose = Pose::from_translation({0.15 * double(i % 3) - 0.15, i < 3 ? -0.1 : 0.1, 0.025});
+    const Pose pose =
+        Pose::from_translation({0.15 * double(i % 3) - 0.15, i < 3 ? -0.1 : 0.1, 0.025});
     scene.objects.push_back({i + 1,
                              types[i % 2]->name + " " + std::to_string(i + 1),
                              types[i % 2],

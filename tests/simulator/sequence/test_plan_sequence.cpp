@@ -42,7 +42,8 @@ TEST_CASE("planned events come in the order of their times, whatever the file's 
   CHECK(plan.objects[6].stays[0].to_s == 3.0);
   CHECK(plan.arm);
   // The arm's tip is over the object while it is carried.
-  const Eigen::Vector3d way = plan.arm->path.at(2.25) - moment_at(plan, 2.25).objects[0].T_world_object.translation();
+  const Eigen::Vector3d way =
+      plan.arm->path.at(2.25) - moment_at(plan, 2.25).objects[0].T_world_object.translation();
   CHECK(way.head<2>().norm() < 1e-9);
   CHECK(way.z() > 0.04);
 }

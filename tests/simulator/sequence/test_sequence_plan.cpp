@@ -13,13 +13,12 @@ using doctest::Approx;
 /// A cube that stands at x = 0, is moved to x = 0.3 between 1 s and 2 s, and is taken away at 3 s.
 SequencePlan moved_cube(bool visibly) {
   SequencePlan plan{.instants = 40};
-  plan.objects = {{1,
-                   "cube",
-                   marked_cube("cube", 0),
-                   {{.to_s = 1, .T_world_object = {}, .carried_visibly = visibly},
-                    {.from_s = 2,
-                     .to_s = 3,
-                     .T_world_object = Pose::from_translation({0.3, 0, 0})}}}};
+  plan.objects = {
+      {1,
+       "cube",
+       marked_cube("cube", 0),
+       {{.to_s = 1, .T_world_object = {}, .carried_visibly = visibly},
+        {.from_s = 2, .to_s = 3, .T_world_object = Pose::from_translation({0.3, 0, 0})}}}};
   return plan;
 }
 

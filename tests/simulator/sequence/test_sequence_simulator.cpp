@@ -80,7 +80,8 @@ TEST_CASE("depth images are coarse and show the objects") {
   const DepthCamera& camera = instant.depth[0];
   CHECK(camera.depth->width() == 160);
   CHECK(camera.depth->height() == 120);
-  const Eigen::Vector3d top = scene.objects[1].stays[0].T_world_object * Eigen::Vector3d(0, 0, 0.025);
+  const Eigen::Vector3d top =
+      scene.objects[1].stays[0].T_world_object * Eigen::Vector3d(0, 0, 0.025);
   const auto pixel = camera.camera.project(top);
   CHECK(double(camera.depth->at(int(std::lround(pixel->u)), int(std::lround(pixel->v)))) ==
         Approx(pixel->depth).epsilon(0.03));
@@ -89,8 +90,10 @@ TEST_CASE("depth images are coarse and show the objects") {
 TEST_CASE("sensors without sense are refused") {
   const SequenceScene scene = six_cubes();
   const SequencePlan plan{.instants = 1, .objects = scene.objects};
-  expect_error(ErrorCode::bad_input, "sigma_px", "", [&] { simulator_of(scene, plan, {.sigma_px = 0}); });
-  expect_error(ErrorCode::bad_input, "depth_width", "", [&] { simulator_of(scene, plan, {.depth_width = -1}); });
+  expect_error(ErrorCode::bad_input, "sigma_px", "",
+               [&] { simulator_of(scene, plan, {.sigma_px = 0}); });
+  expect_error(ErrorCode::bad_input, "depth_width", "",
+               [&] { simulator_of(scene, plan, {.depth_width = -1}); });
 }
 
 TEST_CASE("random sequences have the events that were asked for, one after the other") {
@@ -154,9 +157,8 @@ TEST_CASE("the arm hides markers in some instants, and none where it is drawn ba
 }
 
 TEST_CASE("more events than there is time for are refused") {
-  expect_error(ErrorCode::bad_input, "instants", "", [] {
-    random_sequence(six_cubes(), {.instants = 20, .moves = 10});
-  });
+  expect_error(ErrorCode::bad_input, "instants", "",
+               [] { random_sequence(six_cubes(), {.instants = 20, .moves = 10}); });
 }
 
 }  // namespace vantage::test

@@ -42,8 +42,7 @@ const EvaluatedTracker kBlind{
 const EvaluatedTracker kForgetful{
     "forgetful",
     [](std::shared_ptr<const KnowledgeBase>, const SceneKnowledge&) -> SnapshotTracker {
-      return [next = TrackId(1)](const Snapshot& snapshot,
-                                 const Reconstruction& alone) mutable {
+      return [next = TrackId(1)](const Snapshot& snapshot, const Reconstruction& alone) mutable {
         TrackedScene scene{.time_s = snapshot.time_s, .objects = {}, .events = {}, .snapshot = {}};
         for (const ReconstructedObject& object : alone.objects) {
           scene.objects.push_back({.id = next++,
