@@ -11,6 +11,7 @@ void add_evaluate_command(CLI::App& app, Action& action) {
   add_evaluate_reconstruction(*verb, action);
   add_evaluate_shadow_filters(*verb, action);
   add_evaluate_replay(*verb, action);
+  add_evaluate_tracking(*verb, action);
 }
 
 }  // namespace vantage

@@ -1,6 +1,9 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include <charconv>
+#include <cmath>
+#include <map>
 #include <memory>
 #include <numbers>
 
@@ -12,10 +15,14 @@
 #include "options/command_line.hpp"
 #include "options/field_json.hpp"
 #include "options/sensor_fields.hpp"
+#include "options/sequence_fields.hpp"
 #include "options/unused_options.hpp"
 #include "process/result_output.hpp"
+#include "simulate/sequence_recording.hpp"
 #include "simulate/simulated_dataset.hpp"
 #include "simulate/simulation_record.hpp"
+#include "vantage/raycore/error.hpp"
+#include "workcell/sequence/sequence_scene.hpp"
 
 namespace vantage {
 namespace {
@@ -28,6 +35,9 @@ struct SimulateOptions {
   bool ideal_depth = false, no_second_imager = false, no_projector = false;
   std::optional<double> max_incidence_deg;
   nlohmann::json given = nlohmann::json::object();  // fields of the sensors
+  nlohmann::json given_sequence = nlohmann::json::object();
+  std::vector<std::string> delays;
+  bool no_arm = false;
   std::vector<double> distortion, fisheye;
   bool json = false;
   int threads = 0;
@@ -87,6 +97,49 @@ void add_depth_options(CLI::App& verb, SimulateOptions& a) {
   }
 }
 
+void add_sequence_options(CLI::App& verb, SimulateOptions& a) {
+  RandomSequence defaults;
+  FieldGroup group = fields_of(defaults);
+  group.key.clear();
+  add_fields(verb, group, a.given_sequence);
+  verb.add_flag("--no-arm", a.no_arm, "No arm carries the objects and passes over the table")
+      ->group(group.heading);
+  verb.add_option(
+          "--delay", a.delays,
+          "A camera that is out of step: CAMERA=SECONDS, so much later it takes its picture")
+      ->group(group.heading);
+}
+
+/// "back=0.03".
+void read_delay(const std::string& text, std::map<std::string, double>& delays_s) {
+  const std::size_t mark = text.rfind('=');
+  double delay_s = 0;
+  if (mark != std::string::npos && mark > 0) {
+    const char* const begin = text.data() + mark + 1;
+    const char* const end = text.data() + text.size();
+    const auto [last, error] = std::from_chars(begin, end, delay_s);
+    if (error == std::errc() && last == end && begin != end && std::isfinite(delay_s)) {
+      delays_s[text.substr(0, mark)] = delay_s;
+      return;
+    }
+  }
+  throw bad_input("--delay",
+                  fmt::format("found '{}'; expected CAMERA=SECONDS, e.g. back=0.03", text));
+}
+
+/// What the workcell says, and the command line's options on top; nothing for a single instant.
+std::optional<SequenceSettings> sequence_of(const SimulateOptions& a, const Workcell& workcell) {
+  const bool asked = !a.given_sequence.empty() || !a.delays.empty() || a.no_arm;
+  if (!workcell.sequence && !asked) return {};
+  SequenceSettings settings = workcell.sequence.value_or(SequenceSettings{});
+  FieldGroup group = fields_of(settings.random);
+  group.key.clear();
+  read_given(a.given_sequence, group);
+  if (a.no_arm) settings.random.arm = false;
+  for (const std::string& delay : a.delays) read_delay(delay, settings.delays_s);
+  return settings;
+}
+
 /// The command line's flags on top of the workcell's sensor.
 RecordingOptions recording_of(const SimulateOptions& a, const Workcell& workcell) {
   RecordingOptions recording = a.settings.recording;
@@ -124,11 +177,20 @@ ExitCode simulate(const SimulateOptions& options) {
   prepare_objects(workcell, settings);
   check_recording(workcell, settings.recording);
   claim_folder(options.folder);
+  const auto sequence = sequence_of(options, workcell);
   const bool complete = run.execute("recording", [&] {
+    std::optional<SequencePlan> plan;
+    if (sequence) {
+      plan = plan_sequence(sequence_scene(workcell, settings.recording.color.distortion), *sequence,
+                           settings.recording.seed);
+    }
     const SimulatedCell cell = simulated_cell(workcell);
     const auto json =
         write_simulation_record(options.workcell, workcell, cell, settings, options.folder);
-    if (!record(workcell, cell, settings.recording, options.folder, run.stop())) return false;
+    const bool recorded =
+        plan ? record_sequence(workcell, *plan, settings.recording, options.folder, run.stop())
+             : record(workcell, cell, settings.recording, options.folder, run.stop());
+    if (!recorded) return false;
     print_result(options.json, json, [&] { return summary_of_simulation(json); });
     return true;
   });
@@ -142,13 +204,15 @@ ExitCode simulate(const SimulateOptions& options) {
 void add_simulate_command(CLI::App& app, Action& action) {
   CLI::App* verb = app.add_subcommand(
       "simulate",
-      "Record a workcell with simulated cameras, as a BOP scene folder with ground truth");
+      "Record a workcell with simulated cameras, as a BOP scene folder with ground truth; or over "
+      "time, as one folder for each instant");
   const auto options = std::make_shared<SimulateOptions>();
   verb->add_option("workcell", options->workcell,
                    "Workcell file (YAML) with cameras and the objects in front of them")
       ->required();
   add_output_option(*verb, options->folder, "the dataset")->required();
   add_random_options(*verb, *options);
+  add_sequence_options(*verb, *options);
   add_color_options(*verb, *options);
   add_depth_options(*verb, *options);
   add_json_flag(*verb, options->json, "simulation.json");
@@ -158,7 +222,8 @@ void add_simulate_command(CLI::App& app, Action& action) {
       "  vantage simulate assets/workcells/castle.yaml -o castle\n"
       "  vantage simulate assets/workcells/clutter.yaml --objects 20 --types red_cube --seed 7 -o "
       "c\n"
-      "  vantage simulate assets/workcells/duck.yaml --ideal-depth --samples 64 -o duck");
+      "  vantage simulate assets/workcells/duck.yaml --ideal-depth --samples 64 -o duck\n"
+      "  vantage simulate assets/workcells/clutter.yaml --objects 6 --instants 30 --moves 2 -o s");
   set_action(*verb, action, options, simulate);
 }
 

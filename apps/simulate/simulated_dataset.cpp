@@ -32,10 +32,10 @@ Json camera_json(const PinholeCamera& camera, double depth_scale_mm) {
           {"cam_t_w2c", bop_translation(T_cam_world)}};
 }
 
-Json truth_json(const Workcell& workcell, const std::vector<BopModel>& models,
+Json truth_json(std::span<const PlacedObject> objects, const std::vector<BopModel>& models,
                 const PinholeCamera& camera) {
   Json list = Json::array();
-  for (const PlacedObject& object : workcell.known_objects) {
+  for (const PlacedObject& object : objects) {
     const Pose T_cam_model = camera.T_world_cam().inverse() * object.T_world_object;
     list.push_back({{"cam_R_m2c", bop_rotation(T_cam_model)},
                     {"cam_t_m2c", bop_translation(T_cam_model)},
@@ -62,15 +62,6 @@ void check_depth_range(const CellCamera& camera, double depth_scale_mm) {
                               "{} m; use {} or more, or a shorter sensor.depth_range_m",
                               depth_scale_mm, most, camera.name, far_m,
                               std::ceil(far_m * kMillimetres / 65535 * 100) / 100));
-}
-
-void write_calibrations(const Workcell& workcell, const RecordingOptions& options,
-                        const fs::path& folder) {
-  const std::vector<std::string> names = calibration_names(workcell, options);
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    const Lens lens(workcell.cameras[i].camera.intrinsics(), options.color.distortion);
-    write_file(folder / names[i], calibration_yaml(lens));
-  }
 }
 
 }  // namespace
@@ -106,33 +97,50 @@ void check_recording(const Workcell& workcell, const RecordingOptions& options) 
   }
 }
 
-bool record(const Workcell& workcell, const SimulatedCell& cell, const RecordingOptions& options,
-            const fs::path& folder, const StopToken& stop) {
-  check_recording(workcell, options);
-  for (const char* name : {"rgb", "depth", "models"}) make_output_folder(folder / name);
-  const std::vector<BopModel> models = bop_models(workcell);
-  write_bop_models(folder / "models", models);
+void write_calibrations(const Workcell& workcell, const RecordingOptions& options,
+                        const fs::path& folder) {
+  const std::vector<std::string> names = calibration_names(workcell, options);
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const Lens lens(workcell.cameras[i].camera.intrinsics(), options.color.distortion);
+    write_file(folder / names[i], calibration_yaml(lens));
+  }
+}
 
-  Json cameras = Json::object(), truth = Json::object();
-  stop.expect(workcell.cameras.size());
-  for (std::size_t i = 0; i < workcell.cameras.size(); ++i) {
-    const PinholeCamera& camera = workcell.cameras[i].camera;
-    const std::uint64_t seed = sample_hash(options.seed, i);
-    const auto color =
-        simulate_color(cell.scene, options.lighting, camera, options.color, seed, stop);
+bool record_images(std::span<const CellCamera> cameras, std::span<const RecordedScene> scenes,
+                   const std::vector<BopModel>& models, const RecordingOptions& options,
+                   std::uint64_t base_seed, const fs::path& folder, const StopToken& stop) {
+  for (const char* name : {"rgb", "depth"}) make_output_folder(folder / name);
+  Json camera_list = Json::object(), truth = Json::object();
+  for (std::size_t i = 0; i < cameras.size(); ++i) {
+    const PinholeCamera& camera = cameras[i].camera;
+    const SimulatedScene& scene = *scenes[i].scene;
+    const std::uint64_t seed = sample_hash(base_seed, i);
+    const auto color = simulate_color(scene, options.lighting, camera, options.color, seed, stop);
     if (!color || stop.stop_requested()) return false;
-    const DepthImage depth = simulate_depth(cell.scene.rays(), camera, options.depth, seed);
+    const DepthImage depth = simulate_depth(scene.rays(), camera, options.depth, seed);
     const std::string name = fmt::format("{:06}.png", i);
     write_png(folder / "rgb" / name, *color);
     write_png(folder / "depth" / name, to_counts(depth, options.depth_scale_mm));
-    cameras[std::to_string(i)] = camera_json(camera, options.depth_scale_mm);
-    truth[std::to_string(i)] = truth_json(workcell, models, camera);
+    camera_list[std::to_string(i)] = camera_json(camera, options.depth_scale_mm);
+    truth[std::to_string(i)] = truth_json(scenes[i].known_objects, models, camera);
     stop.advance(1);
   }
-  write_calibrations(workcell, options, folder);
   write_file(folder / "scene_gt.json", json_text(truth));
-  write_file(folder / "scene_camera.json", json_text(cameras));
+  write_file(folder / "scene_camera.json", json_text(camera_list));
   return true;
+}
+
+bool record(const Workcell& workcell, const SimulatedCell& cell, const RecordingOptions& options,
+            const fs::path& folder, const StopToken& stop) {
+  check_recording(workcell, options);
+  make_output_folder(folder / "models");
+  const std::vector<BopModel> models = bop_models(workcell);
+  write_bop_models(folder / "models", models);
+  write_calibrations(workcell, options, folder);
+  stop.expect(workcell.cameras.size());
+  const std::vector<RecordedScene> scenes(workcell.cameras.size(),
+                                          {&cell.scene, workcell.known_objects});
+  return record_images(workcell.cameras, scenes, models, options, options.seed, folder, stop);
 }
 
 }  // namespace vantage

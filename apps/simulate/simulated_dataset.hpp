@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -30,6 +31,25 @@ void check_recording(const Workcell& workcell, const RecordingOptions& options);
 /// cameras are alike, else one for each.
 std::vector<std::string> calibration_names(const Workcell& workcell,
                                            const RecordingOptions& options);
+
+/// What one camera looks at.
+struct RecordedScene {
+  const SimulatedScene* scene = nullptr;
+  std::span<const PlacedObject> known_objects;  ///< the truth
+};
+
+/// Records one image of each camera into a BOP scene folder: `rgb/`, `depth/`, `scene_gt.json` and,
+/// last, `scene_camera.json`.
+/// @param scenes one for each camera.
+/// @param seed of all noise; image i uses a hash of it and i.
+/// @returns whether it is complete: not if `stop` asked to stop.
+bool record_images(std::span<const CellCamera> cameras, std::span<const RecordedScene> scenes,
+                   const std::vector<BopModel>& models, const RecordingOptions& options,
+                   std::uint64_t seed, const std::filesystem::path& folder, const StopToken& stop);
+
+/// Writes the files of `calibration_names`.
+void write_calibrations(const Workcell& workcell, const RecordingOptions& options,
+                        const std::filesystem::path& folder);
 
 /// Records the cell with all of its cameras as a BOP scene folder: `rgb/` and `depth/` with image i
 /// for the i-th camera, `models/`, `scene_gt.json` with the known objects, `scene_camera.json`; and

@@ -15,6 +15,7 @@
 #include "vantage/raycore/detail/file.hpp"
 #include "vantage/raycore/error.hpp"
 #include "version.hpp"
+#include "workcell/random_objects.hpp"
 
 namespace vantage {
 namespace {
@@ -65,28 +66,7 @@ Json images_json(const Workcell& workcell) {
 }  // namespace
 
 void prepare_objects(Workcell& workcell, SimulationOptions& options) {
-  if (options.objects || !options.types.empty()) {
-    RandomObjects random = workcell.random_objects.value_or(RandomObjects{});
-    if (options.objects) random.count = *options.objects;
-    if (!options.types.empty()) {
-      random.types.clear();
-      for (const std::string& name : options.types) {
-        const auto types = workcell.knowledge->types_that_are(name);
-        if (types.empty()) workcell.knowledge->get(name, "--types");  // says which names there are
-        for (const TypePtr& type : types) {
-          if (std::ranges::find(random.types, type) == random.types.end()) {
-            random.types.push_back(type);
-          }
-        }
-      }
-    } else if (random.types.empty()) {
-      random.types = workcell.knowledge->types();
-    }
-    if (random.types.empty() && random.count > 0) {
-      throw bad_input("--objects", "the workcell has no knowledge_base, so there are no types");
-    }
-    workcell.random_objects = random;
-  }
+  choose_random_objects(workcell, options.objects, options.types);
   if (options.seed && workcell.random_objects) workcell.random_objects->seed = *options.seed;
   options.recording.seed = options.seed.value_or(0);
   place_random_objects(workcell);
@@ -103,7 +83,7 @@ void claim_folder(const fs::path& folder) {
                     "another one, so that nothing is lost");
   }
   make_output_folder(folder);
-  fs::remove(folder / "scene_camera.json");
+  for (const char* last : {"scene_camera.json", "sequence.json"}) fs::remove(folder / last);
 }
 
 Json write_simulation_record(const fs::path& workcell_file, const Workcell& workcell,

@@ -127,6 +127,7 @@ void write_cell_bundle(const fs::path& file, const Workcell& workcell,
                        const std::vector<std::string>& calibrations, const fs::path& folder) {
   SortedJson root = read_yaml(file).root;
   write_out_random_objects(workcell, root);
+  root.erase("sequence");  // sequence.json has what came of it
   if (root.contains("sensor")) root["sensor"].erase("calibration");  // of another recording
   if (!calibrations.empty()) root["sensor"]["calibration"] = calibrations;
   const fs::path from = file.parent_path();

@@ -15,17 +15,6 @@ namespace {
 
 constexpr double kTouching = 1e-6;  // metres; meshes are in float
 
-/// The floor that objects may stand on, and all the work area above it.
-Box floor_of(const Workcell& workcell) {
-  Eigen::Vector3d min = workcell.work_area.min(), max = workcell.work_area.max();
-  if (workcell.board) {
-    const Eigen::Vector2d half = 0.5 * workcell.board->size_m;
-    min = {std::max(min.x(), -half.x()), std::max(min.y(), -half.y()), 0};
-    max.head<2>() = max.head<2>().cwiseMin(half);
-  }
-  return Box(min, max, "random_objects: the part of the work area above the board");
-}
-
 double top_of(const KnownObject& object) {
   double top = -std::numeric_limits<double>::infinity();
   for (const Eigen::Vector3f& vertex : object.mesh->vertices()) {
@@ -34,17 +23,14 @@ double top_of(const KnownObject& object) {
   return top;
 }
 
-/// What random objects must not touch: all that rises above the floor. The floor's own table would
-/// be touched by everything.
+/// What random objects must not touch.
 std::vector<KnownObject> obstacles_of(const Workcell& workcell, double floor_z) {
-  std::vector<KnownObject> obstacles;
+  std::vector<KnownObject> objects;
   for (const auto* list :
        {&workcell.static_structures, &workcell.known_objects, &workcell.foreign_objects}) {
-    for (const KnownObject& object : known(*list)) {
-      if (top_of(object) > floor_z + kTouching) obstacles.push_back(object);
-    }
+    for (const KnownObject& object : known(*list)) objects.push_back(object);
   }
-  return obstacles;
+  return rising_above(objects, floor_z);
 }
 
 /// "<type> 1", "<type> 2", …, without the names that are taken.
@@ -72,7 +58,7 @@ class Names {
 std::vector<Pose> poses_of(const std::vector<std::shared_ptr<const TriangleMesh>>& meshes,
                            const Workcell& workcell) {
   const RandomObjects& random = *workcell.random_objects;
-  const Box floor = floor_of(workcell);
+  const Box floor = random_object_floor(workcell);
   try {
     return place_at_rest(
         meshes, obstacles_of(workcell, floor.min().z()),
@@ -83,7 +69,55 @@ std::vector<Pose> poses_of(const std::vector<std::shared_ptr<const TriangleMesh>
   }
 }
 
+/// Types by their own names and by those above them, each once.
+std::vector<TypePtr> types_named(const std::vector<std::string>& names,
+                                 const KnowledgeBase& knowledge) {
+  std::vector<TypePtr> all;
+  for (const std::string& name : names) {
+    const auto types = knowledge.types_that_are(name);
+    if (types.empty()) knowledge.get(name, "--types");  // says which names there are
+    for (const TypePtr& type : types) {
+      if (std::ranges::find(all, type) == all.end()) all.push_back(type);
+    }
+  }
+  return all;
+}
+
 }  // namespace
+
+Box random_object_floor(const Workcell& workcell) {
+  Eigen::Vector3d min = workcell.work_area.min(), max = workcell.work_area.max();
+  if (workcell.board) {
+    const Eigen::Vector2d half = 0.5 * workcell.board->size_m;
+    min = {std::max(min.x(), -half.x()), std::max(min.y(), -half.y()), 0};
+    max.head<2>() = max.head<2>().cwiseMin(half);
+  }
+  return Box(min, max, "random_objects: the part of the work area above the board");
+}
+
+std::vector<KnownObject> rising_above(std::span<const KnownObject> objects, double floor_z) {
+  std::vector<KnownObject> rising;
+  for (const KnownObject& object : objects) {
+    if (top_of(object) > floor_z + kTouching) rising.push_back(object);
+  }
+  return rising;
+}
+
+void choose_random_objects(Workcell& workcell, std::optional<int> count,
+                           const std::vector<std::string>& types) {
+  if (!count && types.empty()) return;
+  RandomObjects random = workcell.random_objects.value_or(RandomObjects{});
+  if (count) random.count = *count;
+  if (!types.empty()) {
+    random.types = types_named(types, *workcell.knowledge);
+  } else if (random.types.empty()) {
+    random.types = workcell.knowledge->types();
+  }
+  if (random.types.empty() && random.count > 0) {
+    throw bad_input("--objects", "the workcell has no knowledge_base, so there are no types");
+  }
+  workcell.random_objects = random;
+}
 
 void place_random_objects(Workcell& workcell) {
   if (!workcell.random_objects || workcell.random_objects->count == 0) return;

@@ -12,6 +12,7 @@
 #include "documents/yaml_document.hpp"
 #include "options/field_json.hpp"
 #include "options/sensor_fields.hpp"
+#include "options/sequence_fields.hpp"
 #include "options/volume_fields.hpp"
 #include "workcell/view_list.hpp"
 #include "workcell/workcell_views.hpp"
@@ -128,6 +129,9 @@ void read_contents(const Value& root, const fs::path& folder, Workcell& workcell
   }
   if (root.has("random_objects")) {
     workcell.random_objects = read_random_objects(root["random_objects"], *workcell.knowledge);
+  }
+  if (root.has("sequence")) {
+    workcell.sequence = read_sequence(root["sequence"], *workcell.knowledge);
   }
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "options/view_options.hpp"
+#include "simulator/sequence/sequence_settings.hpp"
 #include "vantage/planner/view_candidates.hpp"
 #include "vantage/planner/view_constraints.hpp"
 #include "vantage/raycore/box.hpp"
@@ -48,6 +49,7 @@ struct Workcell {
   std::optional<Board> board = {};
   std::vector<CellCamera> cameras = {};              ///< for the simulator
   std::optional<RandomObjects> random_objects = {};  ///< not placed yet: `place_random_objects`
+  std::optional<SequenceSettings> sequence = {};     ///< for the simulator
   double voxel_size_m = 0.009375;                    ///< the thesis' smallest voxel
   VolumeOptions volume = {};
   ViewOptions plan = {};  ///< how views are scored and chosen, where the command line is silent

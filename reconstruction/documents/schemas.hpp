@@ -14,7 +14,8 @@ const nlohmann::json& evaluation_schema();
 const nlohmann::json& planning_schema();
 const nlohmann::json& shadow_filters_schema();
 const nlohmann::json& replay_schema();
-const nlohmann::json& views_schema();
+const nlohmann::json& tracking_schema();
 const nlohmann::json& sequence_schema();
+const nlohmann::json& views_schema();
 
 }  // namespace vantage

@@ -4,6 +4,7 @@
 #include "options/candidate_fields.hpp"
 #include "options/field_json.hpp"
 #include "options/sensor_fields.hpp"
+#include "options/sequence_fields.hpp"
 #include "options/view_options.hpp"
 #include "options/volume_fields.hpp"
 
@@ -51,6 +52,9 @@ TEST_CASE("the workcell's schema has the fields of the options, word for word") 
   check_same("/properties/camera_body/description", body["description"]);
   check_same("/properties/camera_body/default", body["default"]);
   check_same("/properties/camera_body/oneOf/0/enum", body["enum"]);
+
+  RandomSequence sequence;
+  check_each("/properties/sequence/properties/", fields_of(sequence));
 
   const std::string candidates = "/properties/candidates/properties/";
   HalfSpheres spheres = production_views();
