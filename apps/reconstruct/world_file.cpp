@@ -4,6 +4,7 @@
 
 #include <set>
 
+#include "cli/signal_handler.hpp"
 #include "documents/document_value.hpp"
 #include "documents/json_document.hpp"
 #include "documents/schema_check.hpp"
@@ -50,6 +51,7 @@ KnownObject read_object(const Value& value, const KnowledgeBase& knowledge) {
 }  // namespace
 
 WorldFile read_world(const std::filesystem::path& file, const KnowledgeBase& knowledge) {
+  const ReadingPhase reading;
   const Document document = read_document(file);
   check_schema(document, world_schema());
   const Value root(document);

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "cli/sha256.hpp"
+#include "cli/signal_handler.hpp"
 #include "documents/document_value.hpp"
 #include "documents/json_document.hpp"
 #include "documents/schema_check.hpp"
@@ -102,6 +103,7 @@ JudgedView view_of(const Value& view) {
 
 JudgedPlan read_judged_plan(const fs::path& workcell_file, const fs::path& plan_file,
                             const StopToken& stop) {
+  const ReadingPhase reading;
   const Document document = read_document(plan_file);
   check_schema(document, plan_schema());
   const Value plan(document);
