@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <iterator>
 #include <set>
+#include <span>
 #include <string_view>
 
 #include "cli/pose_json.hpp"
@@ -162,17 +164,32 @@ void leave_out_colour(const std::vector<int>& ids, const fs::path& folder,
       "those of depth");
 }
 
+/// Some images at a time, so that Ctrl-C need not wait for all of a long recording.
+BopScene load_in_parts(const std::vector<int>& ids, const fs::path& folder, const StopToken& stop) {
+  constexpr std::size_t kPart = 32;
+  BopScene scene{folder, {}, {}};
+  for (std::size_t begin = 0; begin < ids.size(); begin += kPart) {
+    if (stop.stop_requested()) throw Error(ErrorCode::cancelled, "import", "interrupted");
+    const std::size_t count = std::min(kPart, ids.size() - begin);
+    BopScene part = load_bop_scene(folder, {}, std::span(ids).subspan(begin, count));
+    std::ranges::move(part.images, std::back_inserter(scene.images));
+    std::ranges::move(part.warnings, std::back_inserter(scene.warnings));
+    for (BopImage& image : scene.images) image.depth.reset();  // it was looked at, that is all
+  }
+  return scene;
+}
+
 /// What the dataset's own reader makes of what was written.
 BopScene read_back(const std::vector<int>& ids, const fs::path& folder, ImportedDataset& dataset,
                    const StopToken& stop) {
   try {
-    return load_bop_scene(folder, {}, {}, stop);
+    return load_in_parts(ids, folder, stop);
   } catch (const Error& error) {
     const bool is_size =
         std::string_view(error.what()).find("of one size") != std::string_view::npos;
     if (!is_size || dataset.format != "ScanNet") throw;
     leave_out_colour(ids, folder, dataset);
-    return load_bop_scene(folder, {}, {}, stop);
+    return load_in_parts(ids, folder, stop);
   }
 }
 

@@ -25,6 +25,10 @@ std::optional<Matrix6d> read_covariance(const Value& object) {
   if ((covariance - covariance.transpose()).cwiseAbs().maxCoeff() > 1e-6 * scale) {
     throw object["covariance"].error("not symmetric, so no covariance");
   }
+  if (covariance.diagonal().minCoeff() < 0) {
+    throw object["covariance"].error(fmt::format("a variance in it is {}; expected 0 or more",
+                                                 covariance.diagonal().minCoeff()));
+  }
   return covariance;
 }
 

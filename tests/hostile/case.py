@@ -12,6 +12,7 @@ class Case:
     code: object  # the expected exit code, or a tuple of those that are right
     words: tuple = ()  # what the messages hold: the file's name, and what is wrong with it
     files: dict = dataclasses.field(default_factory=dict)  # path: text, bytes, None (remove it)
+    written: tuple = ()  # what the result says, where that is the place for it
     prepare: typing.Optional[typing.Callable] = None  # of the folder, for what is no plain file
 
     @property

@@ -3,7 +3,7 @@
 the right exit code, a message that names the file and what is wrong with it, within 2 s of computing
 and 1 GiB of memory, and with nothing half-written left.
 
-    tests/hostile/run_hostile.py --vantage FILE [--only WORD] [--jobs N] [--keep FOLDER] [--verbose]
+    tests/hostile/run_hostile.py --vantage FILE [--only EXPRESSION] [--jobs N] [--keep FOLDER] [--verbose]
 
 The inputs are made here, case by case, from the small recording of base.py.
 """
@@ -13,6 +13,7 @@ import concurrent.futures
 import json
 import os
 import pathlib
+import re
 import resource
 import signal
 import subprocess
@@ -91,7 +92,8 @@ def run(vantage, case, folder):
         _, status, usage = os.wait4(process.pid, 0)
         timer.cancel()
         process.returncode = 0  # it was waited for
-    return Outcome(status, usage, (folder / ".stdout").read_bytes(), (folder / ".stderr").read_bytes(), killed.is_set())
+    return Outcome(status, usage, (folder / ".stdout").read_bytes(), (folder / ".stderr").read_bytes(),
+        killed.is_set())
 
 
 def left_behind(folder, code):
@@ -132,6 +134,10 @@ def faults_of(case, outcome, folder):
         faults.append("raw bytes in the message")
     if len(outcome.err) > 20000:
         faults.append(f"a message of {len(outcome.err)} bytes")
+    written = "".join(path.read_text() for path in sorted((folder / "out").glob("*.json"))) if case.written else ""
+    for word in case.written:
+        if word not in written:
+            faults.append(f"the result does not say \"{word}\"")
     return faults + left_behind(folder, outcome.code)
 
 
@@ -146,29 +152,32 @@ def check(vantage, case, parent, files, verbose):
     message = outcome.err.decode(errors="replace").strip()
     if faults or verbose:
         print(f"{case.name}: {'; '.join(faults) if faults else 'right'}"
-              f" [{outcome.code}, {outcome.cpu_s:.2f} s, {outcome.rss_kib // 1024} MiB]\n    {message[:500]}", flush=True)
+              f" [{outcome.code}, {outcome.cpu_s:.2f} s, {outcome.rss_kib // 1024} MiB]\n    {message[:500]}",
+              flush=True)
     return not faults, outcome
 
 
 def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("--vantage", required=True, type=lambda name: str(pathlib.Path(name).resolve()))
-    parser.add_argument("--only", help="cases with this word in their names")
+    parser.add_argument("--only", help="cases whose names match this expression")
     parser.add_argument("--jobs", type=int, default=2)
     parser.add_argument("--keep", help="a new folder for the inputs, which stay there")
     parser.add_argument("--verbose", action="store_true", help="show every message")
     arguments = parser.parse_args()
-    cases = [case for case in all_cases() if not arguments.only or arguments.only in case.name]
+    cases = [case for case in all_cases() if not arguments.only or re.search(arguments.only, case.name)]
     start = time.time()
     files = base.files()
     with tempfile.TemporaryDirectory(prefix="vantage-hostile-") as temporary:
         parent = arguments.keep or temporary
         pathlib.Path(parent).mkdir(exist_ok=True)
         with concurrent.futures.ThreadPoolExecutor(arguments.jobs) as pool:
-            results = list(pool.map(lambda case: check(arguments.vantage, case, parent, files, arguments.verbose), cases))
+            results = list(pool.map(lambda case: check(arguments.vantage, case, parent, files, arguments.verbose),
+                cases))
     bad = sum(not right for right, _ in results)
     outcomes = [outcome for _, outcome in results]
-    print(f"{len(cases)} inputs, {bad} of them wrong; at most {max(o.cpu_s for o in outcomes):.2f} s of computing and "
+    print(
+        f"{len(cases)} inputs, {bad} of them wrong; at most {max(o.cpu_s for o in outcomes):.2f} s of computing and "
           f"{max(o.rss_kib for o in outcomes) // 1024} MiB each; {sum(o.cpu_s for o in outcomes):.0f} s of computing "
           f"in {time.time() - start:.0f} s")
     sys.exit(1 if bad else 0)

@@ -264,7 +264,7 @@ PinholeCamera BopImage::camera() const {
 }
 
 BopScene load_bop_scene(const fs::path& folder, const DepthRange& range,
-                        std::span<const int> only_ids, const StopToken& stop) {
+                        std::span<const int> only_ids) {
   range.check("depth range");
   if (!fs::is_directory(folder)) {
     throw bad_input(folder.string(),
@@ -283,16 +283,13 @@ BopScene load_bop_scene(const fs::path& folder, const DepthRange& range,
   Entries entries;
   for (const BopSensor& sensor : sensors) {
     scene.files.push_back(sensor.camera_file);
-    roots.push_back(reconstruction::detail::parse_json_file(sensor.camera_file, stop));
+    roots.push_back(reconstruction::detail::parse_json_file(sensor.camera_file));
     add_entries(sensor, roots.back(), entries);
   }
   select(entries, only_ids, (sensors.size() == 1 ? sensors[0].camera_file : folder).string());
 
   std::map<int, Loader> loaders;  // by the sensor's first id
   for (const auto& [id, entry] : entries) {
-    if (stop.reason() == StopReason::cancelled) {
-      throw Error(ErrorCode::cancelled, folder.string(), "interrupted while it was read");
-    }
     Loader& loader =
         loaders.try_emplace(entry.sensor.first_id, scene, entry.sensor, range).first->second;
     scene.images.push_back(loader.load(id, entry.number, entry.entry));

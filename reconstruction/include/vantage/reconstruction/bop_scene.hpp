@@ -10,7 +10,6 @@
 #include "vantage/raycore/camera.hpp"
 #include "vantage/raycore/depth_image.hpp"
 #include "vantage/raycore/export.hpp"
-#include "vantage/raycore/stop_token.hpp"
 
 namespace vantage {
 
@@ -51,14 +50,13 @@ struct BopScene {
 /// so on.
 /// @param range of every camera: BOP does not store it.
 /// @param only_ids loads no other image; empty means all.
-/// @param stop is asked before each image.
 /// @throws Error bad_input with the file, the image's id and the key: for files that are missing or
 /// damaged, keys that are missing or of the wrong type or length, half a camera pose, a matrix
 /// that is no rotation, intrinsics that do not fit the image, an id that is there twice or not at
-/// all. Error cancelled if `stop` was.
+/// all.
 VANTAGE_API BopScene load_bop_scene(const std::filesystem::path& folder,
                                     const DepthRange& range = {},
-                                    std::span<const int> only_ids = {}, const StopToken& stop = {});
+                                    std::span<const int> only_ids = {});
 
 /// Whether the folder has a `scene_camera.json`, or one of a sensor.
 VANTAGE_API bool is_bop_scene(const std::filesystem::path& folder);
