@@ -145,7 +145,13 @@ ImportedDataset read_nerfstudio(const fs::path& source) {
     dataset.images.push_back(std::move(image));
   }
   if (any_depth && document.root.contains("depth_unit_scale_factor")) {
-    dataset.depth_scale_mm = 1000 * document.root["depth_unit_scale_factor"].get<double>();
+    const json& factor = document.root["depth_unit_scale_factor"];
+    if (!factor.is_number() || !(factor.get<double>() > 0)) {
+      throw bad_input(document.place("/depth_unit_scale_factor"),
+                      fmt::format("found {}; expected metres of one count of the depth images",
+                                  shown(factor)));
+    }
+    dataset.depth_scale_mm = 1000 * factor.get<double>();
   }
   return dataset;
 }

@@ -224,6 +224,24 @@ TEST_CASE("images are chosen by number, and nothing of somebody else's is overwr
   CHECK(read_text(folder / "mine/notes.txt") == "mine");
   fs::remove(folder / "tum/depth/1.013.png");
   expect_bad_input("1.013.png", "missing", [&] { imported(dataset, folder); });
+  CHECK(fs::is_empty(folder / "dataset"));
+}
+
+TEST_CASE("an import that fails or is interrupted leaves nothing, and can be done again") {
+  const TemporaryFolder folder;
+  ImportedDataset dataset = read_tum(tum_folder(folder), Lens(kImportIntrinsics, {}));
+  const fs::path image = dataset.images[1].depth, away = folder / "away.png";
+  fs::rename(image, away);
+  expect_bad_input("1.013.png", "missing",
+                   [&] { write_imported(dataset, {}, folder / "dataset", {}); });
+  CHECK_FALSE(fs::exists(folder / "dataset"));
+  fs::rename(away, image);
+  const StopToken stop;
+  stop.cancel();
+  expect_error(ErrorCode::cancelled, "import", "interrupted",
+               [&] { write_imported(dataset, {}, folder / "dataset", stop); });
+  CHECK_FALSE(fs::exists(folder / "dataset"));
+  CHECK(imported(dataset, folder).images.size() == 2);
 }
 
 }  // namespace vantage::test
