@@ -49,7 +49,8 @@ class ObjectTruth {
       event.begin = left_.value_or(instant);
       event.from = known_->T_world_object;
     }
-    truth_.events.push_back(event);
+    const bool at_start = known_ == nullptr && instant == 0;
+    if (!at_start) truth_.events.push_back(event);
     known_ = &stay;
     since_ = instant;
     left_.reset();

@@ -24,7 +24,8 @@ struct SequenceTruth {
 };
 
 /// An object is judged from the first instant in which a camera sees it where it stands, until it
-/// leaves that place. It moved, or appeared, in that instant; it disappeared in the first one in
+/// leaves that place. It moved, or appeared, in that instant (what is seen in the first instant was
+/// there); it disappeared in the first one in
 /// which a camera would see it at its last place, if it were still there.
 /// @param seen of the plan's objects, at each instant.
 SequenceTruth sequence_truth(const SequenceSimulator& simulator,

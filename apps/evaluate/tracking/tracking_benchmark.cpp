@@ -48,13 +48,14 @@ std::vector<EstimateAt> estimates_of(const TrackedScene& scene, const TypeModels
 std::optional<SceneEventKind> kind_of(TrackEventKind kind) {
   switch (kind) {
     case TrackEventKind::appeared:
+    case TrackEventKind::discovered:
       return SceneEventKind::appeared;
     case TrackEventKind::moved:
       return SceneEventKind::moved;
     case TrackEventKind::disappeared:
       return SceneEventKind::disappeared;
     case TrackEventKind::views_disagree:
-    case TrackEventKind::exchanged:
+    case TrackEventKind::taken_back:
       break;
   }
   return {};

@@ -28,6 +28,7 @@ double chance(double step_s, double mean_s) {
 
 std::vector<TrackEvent> TrackSet::update(const SnapshotEvidence& evidence) {
   events_.clear();
+  if (!first_s_) first_s_ = evidence.time_s;
   predict(evidence.step_s);
   take_in(evidence);
   for (std::size_t t = 0; t < tracks_.size(); ++t) {
@@ -240,7 +241,7 @@ void TrackSet::confirm(std::size_t candidate, const SnapshotEvidence& evidence) 
   track.id = ++last_id_;
   track.log_odds = kMaxLogOdds;
   const Pose& pose = track.place.filter.pose();
-  if (evidence.first) return;
+  if (track.place.since_s <= *first_s_) return;  // it was there from the start
   const bool empty = evidence.before->was_seen_empty(*track.type, pose);
   say(empty ? TrackEventKind::appeared : TrackEventKind::discovered, track.place.since_s, track, {},
       pose);
