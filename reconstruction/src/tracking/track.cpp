@@ -1,5 +1,7 @@
 #include "tracking/track.hpp"
 
+#include "vantage/raycore/detail/mesh_measures.hpp"
+
 namespace vantage::reconstruction::detail {
 namespace {
 
@@ -22,6 +24,10 @@ double log_of(const std::vector<MissingStreak>& streaks) {
   double sum = 0;
   for (const MissingStreak& streak : streaks) sum += std::log(streak.probability());
   return sum;
+}
+
+double radius_of(const ObjectType& type) {
+  return 0.5 * raycore::detail::bounds_of(*type.mesh).diagonal().norm();
 }
 
 }  // namespace vantage::reconstruction::detail

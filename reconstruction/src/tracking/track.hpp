@@ -17,6 +17,7 @@ struct Place {
   int seen = 1;                    ///< in how many snapshots
   double seen_s = 0;               ///< when it was seen there last
   std::vector<std::size_t> views;  ///< that saw it there last
+  std::size_t features = 1;        ///< the most that a snapshot saw it there by
 };
 
 /// An object's last place, when it is on its way to another one.
@@ -25,6 +26,7 @@ struct Departure {
   double seen_s = 0;      ///< when it was seen there last
   bool watched = true;    ///< it was seen all the way since then
   bool was_gone = false;  ///< it was said to have disappeared
+  bool was_sure = true;   ///< that it stood there, and how: by more than one feature
 };
 
 /// A time in which an object was not watched, and may have been exchanged for another one.
@@ -79,5 +81,8 @@ struct Track {
   double missing_log() const { return log_of(streaks); }
   double existence() const { return 1 / (1 + std::exp(-log_odds - missing_log())); }
 };
+
+/// Of the sphere around the type's mesh.
+double radius_of(const ObjectType& type);
 
 }  // namespace vantage::reconstruction::detail

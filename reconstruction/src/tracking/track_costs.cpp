@@ -14,6 +14,7 @@ const double kAnywhere = std::log(8 * std::numbers::pi * std::numbers::pi);
 
 constexpr double kStep_m = 0.15, kStep_rad = 1.0;  ///< of a carried object, between two snapshots
 constexpr double kFalse = 0.05;                    ///< detections that are of nothing
+constexpr double kWrongPose = 0.02;                ///< poses that are taken for others, e.g. tilted
 constexpr double kNever = 1e9;                     ///< costs more than any sum of others
 
 Matrix6d step_covariance() {
@@ -21,6 +22,18 @@ Matrix6d step_covariance() {
   covariance.diagonal().head<3>().setConstant(kStep_m * kStep_m);
   covariance.diagonal().tail<3>().setConstant(kStep_rad * kStep_rad);
   return covariance;
+}
+
+/// A pose at the same place that noise does not explain: a marker was seen tilted the wrong way, or
+/// read wrongly, now or before.
+std::optional<double> corrected_cost(const Track& track, const DetectedPose& detected) {
+  const double reach_m = kSamePlace * radius_of(*track.type);
+  const double apart_m =
+      (detected.measured.T_world_object.translation() - track.place.filter.pose().translation())
+          .norm();
+  if (apart_m > reach_m) return std::nullopt;
+  const double volume = 4.0 / 3 * std::numbers::pi * reach_m * reach_m * reach_m;
+  return kAnywhere + std::log(volume) - std::log(kWrongPose);
 }
 
 /// An object that is being moved is near where it was last; one that was not may be anywhere.
@@ -69,6 +82,9 @@ std::optional<TrackCost> cost_of(const Track& track, const Detection& detection,
       consider(best, {here->negative_log + stays + doubt, i, Continuation::at_place});
     }
     if (!track.confirmed()) continue;
+    if (const auto cost = corrected_cost(track, detected)) {
+      consider(best, {*cost + doubt, i, Continuation::corrected});
+    }
     if (track.elsewhere) {
       if (const auto there = fits(*track.elsewhere, *track.type, detection, i)) {
         consider(best, {there->negative_log + std::log(2.0) + doubt, i, Continuation::elsewhere});

@@ -13,6 +13,7 @@ enum class Continuation {
   at_place,   ///< where it stood
   elsewhere,  ///< where it was seen last, since it left its place
   new_place,  ///< at one where it was not seen before
+  corrected,  ///< where it stood, but not as it was taken to stand: the same place, another pose
 };
 
 /// What it costs to take a detection for a track's object.
@@ -21,6 +22,9 @@ struct TrackCost {
   std::size_t pose = 0;  ///< of the detection
   Continuation continuation = Continuation::at_place;
 };
+
+/// What is detected nearer to an object than this share of its radius is that object.
+inline constexpr double kSamePlace = 0.5;
 
 /// Mahalanobis distances above this, squared, are another place: once in a million by noise.
 inline constexpr double kGate = 38.3;

@@ -13,6 +13,7 @@ constexpr double kUnsettled = 0.7;    ///< lost in a snapshot by an object that 
 constexpr double kRefutedLog = 4;     ///< lost where depth shows that nothing is there
 constexpr double kMaxMisses = 2.5;    ///< of a candidate, before it is dropped
 constexpr double kWatched_m = 0.1;    ///< steps by which an object can be followed
+constexpr int kStart = 5;             ///< snapshots; what comes into sight in them was there
 constexpr double kContact_m = 0.004;  ///< objects that touch do not stand inside each other
 
 double log_odds_of(double probability) {
@@ -28,7 +29,7 @@ double chance(double step_s, double mean_s) {
 
 std::vector<TrackEvent> TrackSet::update(const SnapshotEvidence& evidence) {
   events_.clear();
-  if (!first_s_) first_s_ = evidence.time_s;
+  ++snapshots_;
   predict(evidence.step_s);
   take_in(evidence);
   for (std::size_t t = 0; t < tracks_.size(); ++t) {
@@ -85,7 +86,9 @@ void TrackSet::take_in(const SnapshotEvidence& evidence) {
     const auto cost = detection ? cost_of(tracks_[t], *detection, chances) : std::nullopt;
     if (assigned[t]) used[*assigned[t]] = 1;
     if (cost) see(tracks_[t], *detection, *cost, evidence);
-    if (!cost || cost->continuation != Continuation::at_place) {
+    const bool is_there = cost && (cost->continuation == Continuation::at_place ||
+                                   cost->continuation == Continuation::corrected);
+    if (!is_there) {
       miss(tracks_[t], expected[t], evidence);
     }
     if (tracks_[t].elsewhere &&
@@ -102,6 +105,7 @@ void TrackSet::see(Track& track, const Detection& detection, const TrackCost& co
                    const SnapshotEvidence& evidence) {
   const DetectedPose& detected = detection.poses[cost.pose];
   track.detection = &detection;
+  const std::size_t features = detection.object->support.size();
   const auto measured_near = [&](const Place& place) {
     return like(*track.type, detected.measured, place.filter.pose());
   };
@@ -109,6 +113,7 @@ void TrackSet::see(Track& track, const Detection& detection, const TrackCost& co
     track.place.filter.update(measured_near(track.place));
     track.place.views = detection.views;
     track.place.seen_s = evidence.time_s;
+    track.place.features = std::max(track.place.features, features);
     ++track.place.seen;
     track.elsewhere.reset();
     track.missing_since_s.reset();
@@ -120,13 +125,24 @@ void TrackSet::see(Track& track, const Detection& detection, const TrackCost& co
     track.elsewhere->filter.update(measured_near(*track.elsewhere));
     track.elsewhere->views = detection.views;
     track.elsewhere->seen_s = evidence.time_s;
+    track.elsewhere->features = std::max(track.elsewhere->features, features);
     ++track.elsewhere->seen;
   } else {
     const Pose& last = track.elsewhere ? track.elsewhere->filter.pose() : track.place.filter.pose();
-    see_elsewhere(track,
-                  {PoseFilter(like(*track.type, detected.measured, last)), evidence.time_s, 1,
-                   evidence.time_s, detection.views},
-                  evidence.time_s - track.seen_s < 1.5 * evidence.step_s);
+    Place seen{PoseFilter(like(*track.type, detected.measured, last)),
+               evidence.time_s,
+               1,
+               evidence.time_s,
+               detection.views,
+               features};
+    const bool is_better = features > 1 && track.place.features < 2;
+    if (cost.continuation == Continuation::corrected && is_better) {
+      seen.since_s = track.place.since_s;
+      track.place = std::move(seen);
+      track.elsewhere.reset();
+    } else {
+      see_elsewhere(track, std::move(seen), evidence.time_s - track.seen_s < 1.5 * evidence.step_s);
+    }
   }
   track.seen_s = evidence.time_s;
 }
@@ -164,8 +180,8 @@ void TrackSet::depart(Track& track) {
   if (track.settled) {
     const double step_m =
         track.place.filter.innovation({track.elsewhere->filter.pose()}).head<3>().norm();
-    track.departed =
-        Departure{track.place.filter.pose(), track.place.seen_s, step_m < kWatched_m, track.gone};
+    track.departed = Departure{track.place.filter.pose(), track.place.seen_s,
+                               step_m<kWatched_m, track.gone, track.place.features> 1};
     if (!refuted && track.hidden) track.left = Doubt{track.place, track.streaks};
   }
   track.place = std::move(*track.elsewhere);
@@ -183,7 +199,9 @@ void TrackSet::settle(Track& track) {
   const Vector6d step = track.place.filter.innovation({from});
   const bool notable = step.head<3>().norm() >= options_.min_move_m ||
                        step.tail<3>().norm() >= options_.min_move_rad;
-  if (track.departed && notable) {
+  const bool corrected = track.departed && !track.departed->was_sure &&
+                         step.head<3>().norm() < kSamePlace * radius_of(*track.type);
+  if (track.departed && notable && !corrected) {
     doubt_identity(track);
     say(TrackEventKind::moved, track.place.since_s, track, from, track.place.filter.pose());
   } else if (track.departed && track.departed->was_gone) {
@@ -194,9 +212,9 @@ void TrackSet::settle(Track& track) {
 
 void TrackSet::start(const Detection& detection, const SnapshotEvidence& evidence) {
   const DetectedPose& detected = detection.poses.front();
-  Track track{
-      0, detected.type,
-      Place{PoseFilter(detected.measured), evidence.time_s, 1, evidence.time_s, detection.views}};
+  Track track{0, detected.type,
+              Place{PoseFilter(detected.measured), evidence.time_s, 1, evidence.time_s,
+                    detection.views, detection.object->support.size()}};
   track.log_odds = log_odds_of(detected.probability);
   track.streaks.resize(evidence.views.size());
   track.seen_s = evidence.time_s;
@@ -204,14 +222,18 @@ void TrackSet::start(const Detection& detection, const SnapshotEvidence& evidenc
   tracks_.push_back(std::move(track));
 }
 
-/// Whether the camera saw, in this very snapshot, something that stands there.
+/// Whether an object that is known stands there: solids exclude each other, and what is detected
+/// beside a known object's pose is that object, taken for another one or turned the wrong way.
 bool TrackSet::is_blocked(const Track& candidate) const {
-  const Pose& pose = candidate.place.filter.pose();
-  const ReconstructedObject body{candidate.type, pose};
+  const ReconstructedObject body{candidate.type, candidate.place.filter.pose()};
+  const double reach_m = kSamePlace * radius_of(*candidate.type);
   return std::ranges::any_of(tracks_, [&](const Track& other) {
-    if (!other.confirmed() || other.detection == nullptr || !other.settled) return false;
+    if (!other.confirmed() || other.gone || other.existence() < 0.5) return false;
     const ReconstructedObject there{other.type, other.place.filter.pose()};
-    return overlap(body, there, kContact_m);
+    const double apart_m =
+        (there.T_world_object.translation() - body.T_world_object.translation()).norm();
+    const double other_reach_m = kSamePlace * radius_of(*other.type);
+    return apart_m < std::min(reach_m, other_reach_m) || overlap(body, there, kContact_m);
   });
 }
 
@@ -222,7 +244,7 @@ void TrackSet::confirm(std::size_t candidate, const SnapshotEvidence& evidence) 
     if (dropped) track.type = nullptr;
     return;
   }
-  const bool sure = evidence.first && track.log_odds > 2;
+  const bool sure = evidence.first && track.detection->object->support.size() > 1;
   if (!sure && track.place.seen < options_.confirmations) return;
   if (is_blocked(track)) return;
   if (take_back(track)) {
@@ -241,8 +263,8 @@ void TrackSet::confirm(std::size_t candidate, const SnapshotEvidence& evidence) 
   track.id = ++last_id_;
   track.log_odds = kMaxLogOdds;
   const Pose& pose = track.place.filter.pose();
-  if (track.place.since_s <= *first_s_) return;  // it was there from the start
-  const bool empty = evidence.before->was_seen_empty(*track.type, pose);
+  const bool empty = !evidence.first && evidence.before->was_seen_empty(*track.type, pose);
+  if (!empty && snapshots_ <= kStart) return;
   say(empty ? TrackEventKind::appeared : TrackEventKind::discovered, track.place.since_s, track, {},
       pose);
 }

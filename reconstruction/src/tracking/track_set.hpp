@@ -62,7 +62,7 @@ class TrackSet {
   std::vector<Track> tracks_;
   std::vector<TrackEvent> events_;  // of the snapshot that is being taken in
   TrackId last_id_ = 0;
-  std::optional<double> first_s_ = {};  // time of the first snapshot
+  int snapshots_ = 0;
   std::map<TypePtr, std::vector<SurfacePoint>> surfaces_;
 };
 
