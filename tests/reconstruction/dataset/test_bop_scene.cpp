@@ -207,7 +207,7 @@ TEST_CASE("a matrix that is not a rotation is refused") {
   const auto with_r = [](const std::string& r) {
     return kCamK + ", " + kScale + ", \"cam_R_w2c\": [" + r + "], \"cam_t_w2c\": [0, 0, 0]";
   };
-  expect_entry_refused(with_r("1, 0, 0, 0, 2, 0, 0, 0, 1"), "cam_R_w2c", {"no rotation"});
+  expect_entry_refused(with_r("1, 0, 0, 0, 2, 0, 0, 0, 1"), "cam_R_w2c", {"not a rotation"});
   expect_entry_refused(with_r("1, 0, 0, 0, 1, 0, 0, 0, -1"), "cam_R_w2c", {"reflection"});
 }
 
