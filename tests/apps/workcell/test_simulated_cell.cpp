@@ -105,7 +105,7 @@ TEST_CASE("a marker beyond the board's edge is refused where the board stands") 
                    [&] { (void)simulated_cell(workcell); });
 }
 
-TEST_CASE("a cell in which the cell is empty is refused") {
+TEST_CASE("an empty cell is refused") {
   TemporaryFolder folder;
   const Workcell empty =
       load_with_types(folder, "work_area: {min_m: [0, 0, 0], max_m: [1, 1, 1]}\n");
