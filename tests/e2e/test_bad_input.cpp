@@ -94,7 +94,7 @@ TEST_CASE("invalid intrinsics and poses") {
   expect_bad_camera("cam_K", {-300, 0, 159.5, 0, 300, 119.5, 0, 0, 1},
                     {"scene_camera.json", "\"7\"", "-300"});
   expect_bad_camera("cam_K", {0, 0, 159.5, 0, 300, 119.5, 0, 0, 1}, {"scene_camera.json", "fx"});
-  expect_bad_camera("cam_R_w2c", {1, 0, 0, 0, 1, 0, 0, 0, 2}, {"cam_R_w2c", "no rotation"});
+  expect_bad_camera("cam_R_w2c", {1, 0, 0, 0, 1, 0, 0, 0, 2}, {"cam_R_w2c", "not a rotation"});
   expect_bad_camera("cam_R_w2c", {1, 0, 0, 0, 1, 0, 0, 0, -1}, {"cam_R_w2c", "reflection"});
   expect_bad_camera("depth_scale", -1, {"depth_scale", "-1"});
 }

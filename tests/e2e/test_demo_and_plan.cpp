@@ -268,7 +268,7 @@ TEST_CASE("methods, further views and explanations, by the command line") {
   const auto text = run_vantage(plan + " --explain 7 --from 0.3 -0.5 0.4 --travel-weight 2");
   CHECK(text.exit_code == 0);
   CHECK(text.out.find("candidate 7: ") != std::string::npos);
-  CHECK(text.out.find("after the journey") != std::string::npos);
+  CHECK(text.out.find("after travel cost") != std::string::npos);
 
   const auto unknown = run_vantage(plan + " --explain 40");
   CHECK(unknown.exit_code == 3);

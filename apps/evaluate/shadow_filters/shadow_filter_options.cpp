@@ -30,8 +30,8 @@ FieldGroup filter_fields(ShadowFilterOptions& settings) {
             .range = from_to(0, 64)},
            {.key = "least_cm3",
             .value = &settings.min_cm3,
-            .help = "Volumes below which a connected component of shadow voxels is removed; 0: "
-                    "none is",
+            .help = "Minimum volumes of a connected component of shadow voxels: smaller ones are "
+                    "removed; 0: none",
             .option = "--least-cm3",
             .unit = "cm3",
             .range = from_to(0, 1e9)}}};
@@ -62,7 +62,7 @@ FieldGroup grid_fields(ShadowFilterOptions& settings) {
 
 FieldGroup fields_of(ShadowFilterCommandOptions& options) {
   return {"",
-          "",
+          "Input",
           {{.key = "seed",
             .value = &options.seed,
             .help = "Random seed for the depth images' noise",

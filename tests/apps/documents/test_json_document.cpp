@@ -41,14 +41,14 @@ TEST_CASE("JSON is read with the lines of its values") {
 }
 
 TEST_CASE("invalid JSON is refused with line and column") {
-  expect_json_refused("{\"a\": 1,\n \"b\": }", "t.json:2:7", {"no valid JSON"});
-  expect_json_refused("{},", "t.json:1:3", {"no valid JSON"});
-  expect_json_refused("{\"a\": 1", "t.json:1:8", {"no valid JSON", "truncated"});
-  expect_json_refused("[01]", "t.json:1:3", {"no valid JSON"});
-  expect_json_refused("[1e999]", "t.json:1:6", {"no valid JSON", "1e999"});
+  expect_json_refused("{\"a\": 1,\n \"b\": }", "t.json:2:7", {"invalid or truncated JSON"});
+  expect_json_refused("{},", "t.json:1:3", {"invalid or truncated JSON"});
+  expect_json_refused("{\"a\": 1", "t.json:1:8", {"invalid or truncated JSON", "truncated"});
+  expect_json_refused("[01]", "t.json:1:3", {"invalid or truncated JSON"});
+  expect_json_refused("[1e999]", "t.json:1:6", {"invalid or truncated JSON", "1e999"});
   expect_json_refused("[\"\xff\"]", "t.json:1:3", {"UTF-8"});
-  expect_json_refused("[1, // a comment\n2]", "t.json:1:5", {"no valid JSON"});
-  expect_json_refused("[NaN]", "t.json:1:2", {"no valid JSON"});
+  expect_json_refused("[1, // a comment\n2]", "t.json:1:5", {"invalid or truncated JSON"});
+  expect_json_refused("[NaN]", "t.json:1:2", {"invalid or truncated JSON"});
   expect_json_refused("", "t.json", {"empty"});
   expect_json_refused(" \r\n\t", "t.json", {"empty"});
 }

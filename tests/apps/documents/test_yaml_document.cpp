@@ -93,8 +93,8 @@ TEST_CASE("aliases are expanded") {
 }
 
 TEST_CASE("syntax errors carry line and column") {
-  expect_yaml_refused("a: [1, 2\nb: 3\n", "t.yaml:2:2", {"no valid YAML", "',' or ']'", "line 1"});
-  expect_yaml_refused("a: 1\n b: 2\n", "t.yaml:2:3", {"no valid YAML", "mapping values"});
+  expect_yaml_refused("a: [1, 2\nb: 3\n", "t.yaml:2:2", {"invalid YAML", "',' or ']'", "line 1"});
+  expect_yaml_refused("a: 1\n b: 2\n", "t.yaml:2:3", {"invalid YAML", "mapping values"});
   expect_yaml_refused("a: *nowhere\n", "t.yaml:1:4", {"*nowhere", "&nowhere"});
   expect_yaml_refused("a: 1\r\nb: \"\\q\"\r\n", "t.yaml:2:5", {"escape"});
   expect_yaml_refused("a: 1\n\tb: 2\n", "t.yaml:2:1", {"tab"});
@@ -140,9 +140,9 @@ TEST_CASE("nesting without end and alias bombs are refused") {
 }
 
 TEST_CASE("what never ended with other readers ends at once, with its place") {
-  expect_yaml_refused("{},", "t.yaml:1:3", {"no valid YAML"});
-  expect_yaml_refused("{}\n,\n", "t.yaml:2:1", {"no valid YAML"});
-  expect_yaml_refused("[1], [2]", "t.yaml:1:4", {"no valid YAML"});
+  expect_yaml_refused("{},", "t.yaml:1:3", {"invalid YAML"});
+  expect_yaml_refused("{}\n,\n", "t.yaml:2:1", {"invalid YAML"});
+  expect_yaml_refused("[1], [2]", "t.yaml:1:4", {"invalid YAML"});
   // 16 MB of values: refused at the limit, not after all of them took memory.
   std::string many = "[";
   while (many.size() < (16u << 20) - 10) many += "1,";
@@ -199,7 +199,7 @@ TEST_CASE("OpenCV's header and tags are passed over on request") {
   CHECK(std::isnan(document.root["camera_matrix"]["data"][1].get<double>()));
   CHECK(document.root["t"] == json::parse("[1, 2]"));
   CHECK(document.place("/camera_matrix/rows") == "c.yml:5: camera_matrix.rows");
-  expect_yaml_refused(text, "t.yaml:1:6", {"no valid YAML"});
+  expect_yaml_refused(text, "t.yaml:1:6", {"invalid YAML"});
 }
 
 TEST_CASE("reading stops soon after it was cancelled") {

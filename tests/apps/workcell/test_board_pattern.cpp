@@ -142,7 +142,7 @@ TEST_CASE("poses as matrix, roll pitch yaw, and by what they look at") {
   refused("matrix: [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [1, 0, 0, 1]]", "pose.matrix[3]",
           {"last row"});
   refused("matrix: [[2, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]", "pose.matrix",
-          {"no rotation"});
+          {"not a rotation"});
   refused("look_at_m: [0, 0, 0]", "pose.look_at_m", {"the position of the pose itself"});
 }
 

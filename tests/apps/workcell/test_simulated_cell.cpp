@@ -105,11 +105,11 @@ TEST_CASE("a marker beyond the board's edge is refused where the board stands") 
                    [&] { (void)simulated_cell(workcell); });
 }
 
-TEST_CASE("a cell in which nothing stands is refused") {
+TEST_CASE("an empty cell is refused") {
   TemporaryFolder folder;
   const Workcell empty =
       load_with_types(folder, "work_area: {min_m: [0, 0, 0], max_m: [1, 1, 1]}\n");
-  expect_bad_input("workcell", "nothing stands", [&] { (void)simulated_cell(empty); });
+  expect_bad_input("workcell", "the cell is empty", [&] { (void)simulated_cell(empty); });
 }
 
 TEST_CASE("random objects lie on the board, away from all that stands there") {

@@ -174,7 +174,7 @@ TEST_CASE("a workcell that is missing or no YAML is refused") {
   TemporaryFolder folder;
   expect_refused([&] { load_workcell(folder / "cell.yaml"); }, "cell.yaml", {"o such file"});
   expect_refused([&] { load(folder, "work_area: 1\n wrong: 2\n"); }, "cell.yaml:2:7",
-                 {"no valid YAML"});
+                 {"invalid YAML"});
 }
 
 TEST_CASE("a workcell's keys are checked against the schema") {

@@ -83,7 +83,7 @@ TEST_CASE("what cannot be read is named with the reason") {
   test::expect_bad_input("missing.bin", "No such file", [&] { read_file(folder / "missing.bin"); });
   test::expect_bad_input(folder.path().string(), "is a folder", [&] { read_file(folder.path()); });
   REQUIRE(mkfifo((folder / "pipe").c_str(), 0600) == 0);
-  test::expect_bad_input("pipe", "no regular file", [&] { read_file(folder / "pipe"); });
+  test::expect_bad_input("pipe", "not a regular file", [&] { read_file(folder / "pipe"); });
   folder.write("big", "12345");
   test::expect_bad_input("big", "has 5 bytes; the limit is 4",
                          [&] { read_file(folder / "big", 4); });
@@ -100,7 +100,7 @@ TEST_CASE("what cannot be written is named with the reason") {
   folder.write("file", "");
   test::expect_bad_input("file/x", "Not a directory", [&] { write_file(folder / "file/x", ""); });
   REQUIRE(mkfifo((folder / "pipe").c_str(), 0600) == 0);
-  test::expect_bad_input("pipe", "no regular file", [&] { write_file(folder / "pipe", ""); });
+  test::expect_bad_input("pipe", "not a regular file", [&] { write_file(folder / "pipe", ""); });
   CHECK(file_count(folder.path()) == 2);
 }
 

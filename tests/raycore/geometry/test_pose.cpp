@@ -116,7 +116,7 @@ TEST_CASE("a rotation may be off by 1e-3 and comes out orthonormal") {
   check_valid(pose);
   CHECK(pose.rotation().isApprox(exact, 1e-12));
   check_valid(Pose::from_rotation(exact + Matrix3d::Constant(1e-4), {0, 0, 0}));
-  expect_bad_input("cam 7", "no rotation", [&] {
+  expect_bad_input("cam 7", "not a rotation", [&] {
     Pose::from_rotation(exact * 1.0006, {1, 2, 3}, "cam 7");
   });
 }
@@ -125,12 +125,12 @@ TEST_CASE("what is not a rotation is refused") {
   const Vector3d zero = Vector3d::Zero();
   const Matrix3d mirror = Vector3d(1, 1, -1).asDiagonal();
   expect_bad_input("cam 1", "reflection", [&] { Pose::from_rotation(mirror, zero, "cam 1"); });
-  expect_bad_input("pose", "no rotation", [&] { Pose::from_rotation(Matrix3d::Zero(), zero); });
+  expect_bad_input("pose", "not a rotation", [&] { Pose::from_rotation(Matrix3d::Zero(), zero); });
   Matrix3d bad = Matrix3d::Identity();
   bad(1, 2) = kNaN;
   expect_bad_input("pose", "not finite", [&] { Pose::from_rotation(bad, zero); });
   bad << 1e200, 1e200, 0, -1e200, 1e200, 0, 0, 0, 1;  // RᵀR overflows to inf - inf
-  expect_bad_input("pose", "no rotation", [&] { Pose::from_rotation(bad, zero); });
+  expect_bad_input("pose", "not a rotation", [&] { Pose::from_rotation(bad, zero); });
   expect_bad_input("pose", "inf", [&] {
     Pose::from_rotation(Matrix3d::Identity(), {0, 0, kInfinity});
   });

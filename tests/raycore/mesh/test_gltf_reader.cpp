@@ -219,11 +219,11 @@ TEST_CASE("a glTF reads files of its folder only, and regular ones only") {
   expect_kept_out("../numbers.bin", "leads out of the mesh's folder");
   expect_kept_out("below/../../numbers.bin", "leads out");
   expect_kept_out((folder / "numbers.bin").string(), "absolute");
-  expect_kept_out("below", "no regular file");
+  expect_kept_out("below", "not a regular file");
   expect_kept_out("gone.bin", "cannot be found");
-  expect_kept_out("", "no path");
+  expect_kept_out("", "not a path");
   std::filesystem::create_symlink("../numbers.bin", folder / "meshes/link.bin");
   expect_kept_out("link.bin", "leads out");
   REQUIRE(::mkfifo((folder / "meshes/pipe.bin").c_str(), 0600) == 0);
-  expect_kept_out("pipe.bin", "no regular file");
+  expect_kept_out("pipe.bin", "not a regular file");
 }

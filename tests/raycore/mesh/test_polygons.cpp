@@ -123,5 +123,5 @@ TEST_CASE("a polygon that crosses itself, and one that takes too many tests, com
   }
   const test::TemporaryFolder folder;
   const auto file = folder.write("a.obj", text + face + "\n");
-  test::expect_bad_input("a.obj", "too intricate", [&] { read_mesh(file); });
+  test::expect_bad_input("a.obj", "too complex", [&] { read_mesh(file); });
 }

@@ -108,7 +108,7 @@ TEST_CASE("a scene_camera.json that is damaged is refused") {
   expect_json_refused("[1, 2]", "scene_camera.json", {"found [1,2]"});
   expect_json_refused("{\n \"7\": {\"cam_K\": [1,", "scene_camera.json:2:20", {"truncated"});
   expect_json_refused("{\"7\": {\"depth_scale\": NaN}}", "scene_camera.json:1:23",
-                      {"no valid JSON"});
+                      {"invalid or truncated JSON"});
   expect_json_refused("{\"7\": {\"depth_scale\": 1e999}}", "scene_camera.json:1:27", {"1e999"});
   expect_json_refused("{\"7\": 3}", "scene_camera.json: \"7\"", {"found 3", "cam_K"});
   expect_json_refused("{\"seven\": {}}", "scene_camera.json: \"seven\"", {"no image id"});
@@ -207,7 +207,7 @@ TEST_CASE("a matrix that is not a rotation is refused") {
   const auto with_r = [](const std::string& r) {
     return kCamK + ", " + kScale + ", \"cam_R_w2c\": [" + r + "], \"cam_t_w2c\": [0, 0, 0]";
   };
-  expect_entry_refused(with_r("1, 0, 0, 0, 2, 0, 0, 0, 1"), "cam_R_w2c", {"no rotation"});
+  expect_entry_refused(with_r("1, 0, 0, 0, 2, 0, 0, 0, 1"), "cam_R_w2c", {"not a rotation"});
   expect_entry_refused(with_r("1, 0, 0, 0, 1, 0, 0, 0, -1"), "cam_R_w2c", {"reflection"});
 }
 

@@ -120,7 +120,7 @@ TEST_CASE("models that are missing or damaged are refused") {
 }
 
 TEST_CASE("an invalid models_info.json is refused") {
-  expect_info_refused("{", "models_info.json:1:2", {"no valid JSON"});
+  expect_info_refused("{", "models_info.json:1:2", {"invalid or truncated JSON"});
   expect_info_refused("[1]", "models_info.json", {"found [1]", "one entry per model"});
   expect_info_refused(R"({"one": {}})", "models_info.json: \"one\"", {"no model id"});
   expect_info_refused(R"({"1": {}, "01": {}})", "models_info.json: \"1\"", {"model 1", "twice"});

@@ -82,7 +82,7 @@ TEST_CASE("a file without lines is of a detector that saw nothing") {
 
 TEST_CASE("lines that are not as the schema has them are refused with their place") {
   const std::string start = R"({"image": 0, "type": "a", "value": "b")";
-  expect_line_refused("{", "seen.jsonl:3:2", "no valid JSON");
+  expect_line_refused("{", "seen.jsonl:3:2", "invalid or truncated JSON");
   expect_line_refused("[1]", "seen.jsonl:3", "found [1]; expected");
   expect_line_refused(start + "}", "seen.jsonl:3", "exactly one of the keys");
   expect_line_refused(start + R"(, "point_m": [0, 0, 1], "points_px": [[1, 2]]})", "seen.jsonl:3",

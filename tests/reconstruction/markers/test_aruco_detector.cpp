@@ -240,7 +240,7 @@ TEST_CASE("there are no markers where there is nothing to see") {
 
 TEST_CASE("dictionaries that there are not, and an image of another camera, are refused") {
   expect_bad_input("dictionaries", "'4X4_51'", [] { ArucoDetector({{"4X4_51"}, {}}); });
-  expect_bad_input("dictionaries", "there is none", [] { ArucoDetector({{}, {}}); });
+  expect_bad_input("dictionaries", "there is no dictionary", [] { ArucoDetector({{}, {}}); });
   expect_bad_input("dictionaries", "the larger one", [] {
     ArucoDetector({{"4X4_50", "4X4_250"}, {}});
   });

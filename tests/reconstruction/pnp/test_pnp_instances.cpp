@@ -131,7 +131,7 @@ TEST_CASE("PnP: a misread marker is neither an object nor a part of one") {
   CHECK(result.objects[0].type->name == "cube");
   REQUIRE(result.unexplained.size() == 1);
   CHECK(result.unexplained[0].id == ObservationId{1, 0});
-  CHECK(result.unexplained[0].reason.find("read wrongly") != std::string::npos);
+  CHECK(result.unexplained[0].reason.find("misread") != std::string::npos);
   CHECK(result.unexplained[0].reason.find(true_key.value) != std::string::npos);
 }
 

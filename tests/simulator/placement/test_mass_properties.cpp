@@ -62,7 +62,7 @@ TEST_CASE("mass properties: meshes without an inside are refused") {
   expect_bad_input("mesh", "no triangles", [] { mass_properties({}); });
 
   for (Triangle& triangle : triangles) std::swap(triangle[0], triangle[1]);
-  expect_bad_input("mesh", "faces look inwards", [&] {
+  expect_bad_input("mesh", "faces point inwards", [&] {
     mass_properties({box.vertices(), triangles});
   });
 

@@ -182,7 +182,7 @@ TEST_CASE("intrinsics of another resolution are named, those of a cropped image 
   CHECK(says(resolution_misfit(half), "multiply fx, fy, cx and cy by 2"));
   Intrinsics turned = kImage;
   std::swap(turned.cx, turned.cy);
-  CHECK(says(resolution_misfit(turned), "turned by 90 degrees"));
+  CHECK(says(resolution_misfit(turned), "rotated by 90 degrees"));
   CHECK(resolution_misfit({130, 160, 150, 150, -10.5, 59.5}).empty());
   CHECK(resolution_misfit({640, 480, 600, 600, 330.1, 228.4}).empty());
 }
