@@ -64,7 +64,6 @@ std::optional<SceneEventKind> kind_of(TrackEventKind kind) {
 void add_reports(const TrackedScene& scene, int instant, const TypeModels& types,
                  std::vector<ReportedEvent>& reports) {
   for (const TrackEvent& event : scene.events) {
-    fprintf(stderr, "REP %d %s %s\n", instant, std::string(name_of(event.kind)).c_str(), event.text.c_str());
     const auto kind = kind_of(event.kind);
     if (!kind) continue;
     reports.push_back({*kind, types.index.at(event.type.get()), instant, event.from, event.to});
@@ -77,7 +76,6 @@ struct PlayedSequence {
   std::vector<TrackedRun> runs;
 };
 
-std::string plan_name(const SequenceSimulator& s, std::uint64_t id) { return s.plan().objects[id-1].name; }
 /// What the sequences have in common.
 class Benchmark {
  public:
@@ -96,7 +94,6 @@ class Benchmark {
     std::optional<PlayedSequence> played = play(simulator, seed);
     if (!played) return {};
     const SequenceTruth truth = sequence_truth(simulator, played->seen, types_);
-    for (const auto& e : truth.events) { fprintf(stderr, "TRUE seed %d kind %d obj %d begin %d due %d", int(seed), int(e.kind), int(e.object), e.begin, e.due); if (e.from) fprintf(stderr, " from %.3f %.3f %.3f", e.from->translation().x(), e.from->translation().y(), e.from->translation().z()); if (e.to) fprintf(stderr, " to %.3f %.3f %.3f", e.to->translation().x(), e.to->translation().y(), e.to->translation().z()); fprintf(stderr, " %s\n", plan_name(simulator, e.object).c_str()); }
     std::vector<TrackingScores> scores;
     for (TrackedRun& run : played->runs) {
       for (std::size_t i = 0; i < run.frames.size(); ++i) run.frames[i].truth = truth.frames[i];

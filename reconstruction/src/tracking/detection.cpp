@@ -1,19 +1,11 @@
 #include "tracking/detection.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 
 namespace vantage::reconstruction::detail {
 namespace {
 
 constexpr double kUnknown_m = 0.005, kUnknown_rad = 0.05;
-
-/// The nearest matrix without negative variances.
-Matrix6d without_negative(const Matrix6d& symmetric) {
-  const Eigen::SelfAdjointEigenSolver<Matrix6d> solver(symmetric);
-  return solver.eigenvectors() * solver.eigenvalues().cwiseMax(0).asDiagonal() *
-         solver.eigenvectors().transpose();
-}
 
 Matrix6d unknown_noise() {
   Matrix6d noise = Matrix6d::Identity();

@@ -99,7 +99,7 @@ struct ObjectTracker::Impl {
 
   TrackedObject object_of(const Track& track, const Snapshot& snapshot) {
     TrackedObject object{track.id, track.type, track.place.filter.pose()};
-    object.covariance = track.place.filter.covariance();
+    object.covariance = track.place.covariance();
     object.state = state_of(track);
     object.existence = track.existence();
     object.seen_s = track.seen_s;

@@ -1,6 +1,7 @@
 #include "tracking/pose_filter.hpp"
 
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <numbers>
 
@@ -10,6 +11,13 @@ namespace vantage::reconstruction::detail {
 namespace {
 
 constexpr double kLeftOver = 0.1;  ///< of common errors, in variance, between the same cameras
+
+/// Squared metres, at the surface of an object of 5 cm.
+double size_of(const Matrix6d& covariance) {
+  constexpr double kArm_m = 0.05;
+  return covariance.topLeftCorner<3, 3>().trace() +
+         kArm_m * kArm_m * covariance.bottomRightCorner<3, 3>().trace();
+}
 
 double angle_between(const Pose& a, const Pose& b) {
   return rotation_vector(a.rotation() * b.rotation().transpose()).norm();
@@ -37,14 +45,16 @@ Matrix6d PoseFilter::innovation_covariance(const PoseMeasurement& measured,
 }
 
 void PoseFilter::update(const PoseMeasurement& measured) {
-  const Matrix6d sum = state_.noise + measured.noise;
-  const Eigen::LDLT<Matrix6d> solver(sum);
-  const Matrix6d gain = solver.solve(state_.noise).transpose();
+  // What only one of both has is no error of all pictures: a feature that was read wrongly, say.
+  const bool smaller = size_of(measured.common) < size_of(state_.common);
+  const Matrix6d common = smaller ? measured.common : state_.common;
+  const Matrix6d own = state_.noise + without_negative(state_.common - common);
+  const Matrix6d other = measured.noise + without_negative(measured.common - common);
+  const Matrix6d gain = Eigen::LDLT<Matrix6d>(Matrix6d(own + other)).solve(own).transpose();
   state_.T_world_object = moved(pose(), Vector6d(gain * innovation(measured)));
   const Matrix6d rest = Matrix6d::Identity() - gain;
-  state_.noise = rest * state_.noise * rest.transpose() + gain * measured.noise * gain.transpose();
-  const double weight = gain.trace() / 6;
-  state_.common = (1 - weight) * state_.common + weight * measured.common;
+  state_.noise = rest * own * rest.transpose() + gain * other * gain.transpose();
+  state_.common = common;
 }
 
 NormalLikelihood likelihood_of(const Vector6d& innovation, const Matrix6d& covariance) {
@@ -55,6 +65,13 @@ NormalLikelihood likelihood_of(const Vector6d& innovation, const Matrix6d& covar
   result.negative_log =
       0.5 * result.squared_distance + log_of_root + 3 * std::log(2 * std::numbers::pi);
   return result;
+}
+
+Matrix6d without_negative(const Matrix6d& symmetric) {
+  if (symmetric.isZero(0)) return symmetric;
+  const Eigen::SelfAdjointEigenSolver<Matrix6d> solver(symmetric);
+  return solver.eigenvectors() * solver.eigenvalues().cwiseMax(0).asDiagonal() *
+         solver.eigenvectors().transpose();
 }
 
 Pose nearest_equal_pose(const ObjectType& type, const Pose& pose, const Pose& target) {

@@ -45,6 +45,9 @@ struct NormalLikelihood {
 };
 NormalLikelihood likelihood_of(const Vector6d& innovation, const Matrix6d& covariance);
 
+/// The nearest matrix without negative variances.
+Matrix6d without_negative(const Matrix6d& symmetric);
+
 /// Of the poses that look the same by the type's symmetries, that nearest to `target`.
 Pose nearest_equal_pose(const ObjectType& type, const Pose& pose, const Pose& target);
 

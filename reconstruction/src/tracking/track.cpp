@@ -20,6 +20,14 @@ void MissingStreak::miss(int expected, bool something_there, double step_s) {
   clear = comes * missed;
 }
 
+Matrix6d Place::covariance() const {
+  if (!other) return filter.covariance();
+  const double share = 1 / (1 + std::exp(-other->log_ratio));
+  const Vector6d step = filter.innovation({other->filter.pose()});
+  return (1 - share) * filter.covariance() +
+         share * (other->filter.covariance() + step * step.transpose());
+}
+
 double log_of(const std::vector<MissingStreak>& streaks) {
   double sum = 0;
   for (const MissingStreak& streak : streaks) sum += std::log(streak.probability());

@@ -10,6 +10,13 @@
 
 namespace vantage::reconstruction::detail {
 
+/// What an object's pose may be as well: a single marker may be tilted two ways.
+struct OtherPose {
+  PoseFilter filter;
+  double log_ratio =
+      0;  ///< of its probability to that of the pose that the object is taken to have
+};
+
 /// Where an object was seen, at first and since then.
 struct Place {
   PoseFilter filter;
@@ -18,6 +25,10 @@ struct Place {
   double seen_s = 0;               ///< when it was seen there last
   std::vector<std::size_t> views;  ///< that saw it there last
   std::size_t features = 1;        ///< the most that a snapshot saw it there by
+  std::optional<OtherPose> other = {};
+
+  /// Of the pose; if it may be the other one, too, it covers that.
+  Matrix6d covariance() const;
 };
 
 /// An object's last place, when it is on its way to another one.

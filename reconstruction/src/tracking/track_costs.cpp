@@ -51,6 +51,16 @@ void consider(std::optional<TrackCost>& best, const TrackCost& other) {
   if (!best || other.cost < best->cost) best = other;
 }
 
+/// The cost of a pose that fits the other one of the track's place.
+std::optional<double> fits_other(const Track& track, const Detection& detection, std::size_t pose) {
+  if (!track.place.other) return std::nullopt;
+  Place other = track.place;
+  other.filter = track.place.other->filter;
+  const auto likelihood = fits(other, *track.type, detection, pose);
+  if (!likelihood) return std::nullopt;
+  return likelihood->negative_log + std::max(0.0, -track.place.other->log_ratio);
+}
+
 }  // namespace
 
 PoseMeasurement like(const ObjectType& type, const PoseMeasurement& measured, const Pose& target) {
@@ -80,6 +90,9 @@ std::optional<TrackCost> cost_of(const Track& track, const Detection& detection,
     if (const auto here = fits(track.place, *track.type, detection, i)) {
       const double stays = -std::log(1 - chances.moves);
       consider(best, {here->negative_log + stays + doubt, i, Continuation::at_place});
+    }
+    if (const auto here = fits_other(track, detection, i)) {
+      consider(best, {*here + doubt, i, Continuation::at_place});
     }
     if (!track.confirmed()) continue;
     if (const auto cost = corrected_cost(track, detected)) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "reasoning/solid_body.hpp"
+#include "tracking/place_update.hpp"
 #include "tracking/track_texts.hpp"
 
 namespace vantage::reconstruction::detail {
@@ -14,11 +15,17 @@ constexpr double kRefutedLog = 4;     ///< lost where depth shows that nothing i
 constexpr double kMaxMisses = 2.5;    ///< of a candidate, before it is dropped
 constexpr double kWatched_m = 0.1;    ///< steps by which an object can be followed
 constexpr int kStart = 5;             ///< snapshots; what comes into sight in them was there
+constexpr int kTilted = 5;            ///< snapshots that a single marker takes to be believed
 constexpr double kContact_m = 0.004;  ///< objects that touch do not stand inside each other
 
 double log_odds_of(double probability) {
   const double p = std::clamp(probability, 0.5, 0.999);
   return std::min(kMaxLogOdds, std::log(p / (1 - p)));
+}
+
+void creep(Place& place, double creep_m, double creep_rad) {
+  place.filter.predict(creep_m, creep_rad);
+  if (place.other) place.other->filter.predict(creep_m, creep_rad);
 }
 
 double chance(double step_s, double mean_s) {
@@ -51,10 +58,9 @@ void TrackSet::predict(double step_s) {
   for (Track& track : tracks_) {
     track.detection = nullptr;
     track.hidden = false;
-    track.place.filter.predict(options_.creep_m * root, options_.creep_rad * root);
-    if (track.elsewhere) {
-      track.elsewhere->filter.predict(options_.creep_m * root, options_.creep_rad * root);
-    }
+    creep(track.place, options_.creep_m * root, options_.creep_rad * root);
+    if (track.elsewhere)
+      creep(*track.elsewhere, options_.creep_m * root, options_.creep_rad * root);
   }
 }
 
@@ -101,20 +107,20 @@ void TrackSet::take_in(const SnapshotEvidence& evidence) {
   }
 }
 
+/// One marker may be taken for tilted the wrong way again and again.
+int TrackSet::confirmations(const Track& track) const {
+  const Place& seen = *track.elsewhere;
+  const double step_m = track.place.filter.innovation({seen.filter.pose()}).head<3>().norm();
+  const bool may_be_tilted = seen.features < 2 && step_m < kSamePlace * radius_of(*track.type);
+  return may_be_tilted ? std::max(kTilted, options_.confirmations) : options_.confirmations;
+}
+
 void TrackSet::see(Track& track, const Detection& detection, const TrackCost& cost,
                    const SnapshotEvidence& evidence) {
   const DetectedPose& detected = detection.poses[cost.pose];
   track.detection = &detection;
-  const std::size_t features = detection.object->support.size();
-  const auto measured_near = [&](const Place& place) {
-    return like(*track.type, detected.measured, place.filter.pose());
-  };
   if (cost.continuation == Continuation::at_place) {
-    track.place.filter.update(measured_near(track.place));
-    track.place.views = detection.views;
-    track.place.seen_s = evidence.time_s;
-    track.place.features = std::max(track.place.features, features);
-    ++track.place.seen;
+    see_at(track.place, *track.type, detection, evidence.time_s);
     track.elsewhere.reset();
     track.missing_since_s.reset();
     track.streaks.assign(evidence.views.size(), {});
@@ -122,20 +128,12 @@ void TrackSet::see(Track& track, const Detection& detection, const TrackCost& co
         std::min(kMaxLogOdds, std::max(0.0, track.log_odds) + log_odds_of(detected.probability));
     if (!track.settled && track.place.seen >= options_.confirmations) settle(track);
   } else if (cost.continuation == Continuation::elsewhere) {
-    track.elsewhere->filter.update(measured_near(*track.elsewhere));
-    track.elsewhere->views = detection.views;
-    track.elsewhere->seen_s = evidence.time_s;
-    track.elsewhere->features = std::max(track.elsewhere->features, features);
-    ++track.elsewhere->seen;
+    see_at(*track.elsewhere, *track.type, detection, evidence.time_s);
   } else {
     const Pose& last = track.elsewhere ? track.elsewhere->filter.pose() : track.place.filter.pose();
-    Place seen{PoseFilter(like(*track.type, detected.measured, last)),
-               evidence.time_s,
-               1,
-               evidence.time_s,
-               detection.views,
-               features};
-    const bool is_better = features > 1 && track.place.features < 2;
+    Place seen = place_of(*track.type, detection, cost.pose,
+                          like(*track.type, detected.measured, last), evidence.time_s);
+    const bool is_better = seen.features > 1 && track.place.features < 2;
     if (cost.continuation == Continuation::corrected && is_better) {
       seen.since_s = track.place.since_s;
       track.place = std::move(seen);
@@ -213,8 +211,7 @@ void TrackSet::settle(Track& track) {
 void TrackSet::start(const Detection& detection, const SnapshotEvidence& evidence) {
   const DetectedPose& detected = detection.poses.front();
   Track track{0, detected.type,
-              Place{PoseFilter(detected.measured), evidence.time_s, 1, evidence.time_s,
-                    detection.views, detection.object->support.size()}};
+              place_of(*detected.type, detection, 0, detected.measured, evidence.time_s)};
   track.log_odds = log_odds_of(detected.probability);
   track.streaks.resize(evidence.views.size());
   track.seen_s = evidence.time_s;

@@ -40,7 +40,7 @@ struct TrackOptions {
   TemporalFilter filter = TemporalFilter::kalman;
   ReconstructOptions reconstruct = {};
   /// Standard deviation by which a standing object creeps in a second, metres and radians.
-  double creep_m = 5e-6, creep_rad = 5e-5;
+  double creep_m = 2e-7, creep_rad = 2e-6;
   /// Filter `features`: the weight of a feature falls by a factor of e in this time.
   double feature_decay_s = 0.5;
   /// Snapshots in which a new object, or an object at a new place, has to be seen alike before it
