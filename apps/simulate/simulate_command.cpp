@@ -140,6 +140,14 @@ std::optional<SequenceSettings> sequence_of(const SimulateOptions& a, const Work
   return settings;
 }
 
+std::optional<SequencePlan> plan_of(const SimulateOptions& a, const Workcell& workcell,
+                                    const RecordingOptions& recording) {
+  const std::optional<SequenceSettings> sequence = sequence_of(a, workcell);
+  if (!sequence) return {};
+  return plan_sequence(sequence_scene(workcell, recording.color.distortion), *sequence,
+                       recording.seed);
+}
+
 /// The command line's flags on top of the workcell's sensor.
 RecordingOptions recording_of(const SimulateOptions& a, const Workcell& workcell) {
   RecordingOptions recording = a.settings.recording;
@@ -176,15 +184,11 @@ ExitCode simulate(const SimulateOptions& options) {
   settings.recording = recording_of(options, workcell);
   prepare_objects(workcell, settings);
   check_recording(workcell, settings.recording);
+  const std::optional<SequencePlan> plan =
+      workers.execute([&] { return plan_of(options, workcell, settings.recording); });
   claim_folder(options.folder);
-  const auto sequence = sequence_of(options, workcell);
   const bool complete = workers.execute([&] {
     const ProgressLine progress("recording", stop);
-    std::optional<SequencePlan> plan;
-    if (sequence) {
-      plan = plan_sequence(sequence_scene(workcell, settings.recording.color.distortion), *sequence,
-                           settings.recording.seed);
-    }
     const SimulatedCell cell = simulated_cell(workcell);
     const auto json =
         write_simulation_record(options.workcell, workcell, cell, settings, options.folder);
