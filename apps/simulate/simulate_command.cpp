@@ -38,7 +38,7 @@ struct SimulateOptions {
   nlohmann::json given = nlohmann::json::object();  // fields of the sensors
   nlohmann::json given_sequence = nlohmann::json::object();
   std::vector<std::string> delays;
-  bool no_arm = false;
+  bool sequence = false, no_arm = false;
   std::vector<double> distortion, fisheye;
   bool json = false;
   int threads = 0;
@@ -99,6 +99,9 @@ void add_depth_options(CLI::App& verb, SimulateOptions& a) {
 
 void add_sequence_options(CLI::App& verb, SimulateOptions& a) {
   RandomSequence defaults;
+  verb.add_flag("--sequence", a.sequence,
+                "Record over time, as the workcell's sequence says; the options below do so, too")
+      ->group("Sequence");
   FieldGroup group = fields_of(defaults);
   group.key.clear();
   add_fields(verb, group, a.given_sequence);
@@ -129,8 +132,9 @@ void read_delay(const std::string& text, std::map<std::string, double>& delays_s
 
 /// What the workcell says, and the command line's options on top; nothing for a single instant.
 std::optional<SequenceSettings> sequence_of(const SimulateOptions& a, const Workcell& workcell) {
-  const bool asked = !a.given_sequence.empty() || !a.delays.empty() || a.no_arm;
-  if (!workcell.sequence && !asked) return {};
+  const bool asked =
+      a.sequence || !a.given_sequence.empty() || !a.delays.empty() || a.no_arm;
+  if (!asked) return {};
   SequenceSettings settings = workcell.sequence.value_or(SequenceSettings{});
   FieldGroup group = fields_of(settings.random);
   group.key.clear();

@@ -40,7 +40,7 @@ sequence:
 
 test::CommandResult record(const fs::path& cell, const fs::path& folder,
                            const std::string& options = "") {
-  return run_vantage("simulate" + quoted(cell) + " -o" + quoted(folder) + " --samples 1 " +
+  return run_vantage("simulate" + quoted(cell) + " -o" + quoted(folder) + " --sequence --samples 1 " +
                      options);
 }
 
