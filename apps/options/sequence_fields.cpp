@@ -6,7 +6,7 @@
 namespace vantage {
 
 FieldGroup fields_of(RandomSequence& sequence) {
-  constexpr double kMany = 1e6;
+  constexpr double kMany = 1e5;
   return {"sequence",
           "Sequence",
           {{.key = "instants",

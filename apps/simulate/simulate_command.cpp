@@ -37,7 +37,7 @@ struct SimulateOptions {
   nlohmann::json given = nlohmann::json::object();  // fields of the sensors
   nlohmann::json given_sequence = nlohmann::json::object();
   std::vector<std::string> delays;
-  bool no_arm = false;
+  bool sequence = false, no_arm = false;
   std::vector<double> distortion, fisheye;
   bool json = false;
   int threads = 0;
@@ -99,6 +99,9 @@ void add_depth_options(CLI::App& verb, SimulateOptions& a) {
 
 void add_sequence_options(CLI::App& verb, SimulateOptions& a) {
   RandomSequence defaults;
+  verb.add_flag("--sequence", a.sequence,
+                "Record over time, as the workcell's sequence says; the options below do so, too")
+      ->group("Sequence");
   FieldGroup group = fields_of(defaults);
   group.key.clear();
   add_fields(verb, group, a.given_sequence);
@@ -129,8 +132,9 @@ void read_delay(const std::string& text, std::map<std::string, double>& delays_s
 
 /// What the workcell says, and the command line's options on top; nothing for a single instant.
 std::optional<SequenceSettings> sequence_of(const SimulateOptions& a, const Workcell& workcell) {
-  const bool asked = !a.given_sequence.empty() || !a.delays.empty() || a.no_arm;
-  if (!workcell.sequence && !asked) return {};
+  const bool asked =
+      a.sequence || !a.given_sequence.empty() || !a.delays.empty() || a.no_arm;
+  if (!asked) return {};
   SequenceSettings settings = workcell.sequence.value_or(SequenceSettings{});
   FieldGroup group = fields_of(settings.random);
   group.key.clear();
@@ -138,6 +142,14 @@ std::optional<SequenceSettings> sequence_of(const SimulateOptions& a, const Work
   if (a.no_arm) settings.random.arm = false;
   for (const std::string& delay : a.delays) read_delay(delay, settings.delays_s);
   return settings;
+}
+
+std::optional<SequencePlan> plan_of(const SimulateOptions& a, const Workcell& workcell,
+                                    const RecordingOptions& recording) {
+  const std::optional<SequenceSettings> sequence = sequence_of(a, workcell);
+  if (!sequence) return {};
+  return plan_sequence(sequence_scene(workcell, recording.color.distortion), *sequence,
+                       recording.seed);
 }
 
 /// The command line's flags on top of the workcell's sensor.
@@ -176,14 +188,10 @@ ExitCode simulate(const SimulateOptions& options) {
                 "--objects N, or random_objects in the workcell");
   prepare_objects(workcell, settings);
   check_recording(workcell, settings.recording);
+  const std::optional<SequencePlan> plan =
+      run.execute([&] { return plan_of(options, workcell, settings.recording); });
   claim_folder(options.folder);
-  const auto sequence = sequence_of(options, workcell);
   const bool complete = run.execute("recording", [&] {
-    std::optional<SequencePlan> plan;
-    if (sequence) {
-      plan = plan_sequence(sequence_scene(workcell, settings.recording.color.distortion), *sequence,
-                           settings.recording.seed);
-    }
     const SimulatedCell cell = simulated_cell(workcell);
     const auto json =
         write_simulation_record(options.workcell, workcell, cell, settings, options.folder);

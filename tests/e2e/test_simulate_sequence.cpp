@@ -40,7 +40,7 @@ sequence:
 
 test::CommandResult record(const fs::path& cell, const fs::path& folder,
                            const std::string& options = "") {
-  return run_vantage("simulate" + quoted(cell) + " -o" + quoted(folder) + " --samples 1 " +
+  return run_vantage("simulate" + quoted(cell) + " -o" + quoted(folder) + " --sequence --samples 1 " +
                      options);
 }
 
@@ -108,6 +108,7 @@ TEST_CASE("sequences that cannot be recorded are refused with the reason") {
     CHECK(result.exit_code == exit_code);
     CAPTURE(result.err);
     CHECK(result.err.find(reason) != std::string::npos);
+    CHECK_FALSE(fs::exists(folder / "out"));
   };
   refused("--delay above=0.1", 3, "above");
   refused("--delay back", 3, "CAMERA=SECONDS");

@@ -95,9 +95,12 @@ HotaScores hota(std::span<const ComparedFrame> frames) {
   for (const ThresholdCounts& at : thresholds) {
     const double detection = at.hits / std::max(1.0, truth + estimates - at.hits);
     const double association = at.association(counts);
-    scores.detection += detection / kThresholds;
-    scores.association += association / kThresholds;
-    scores.hota += std::sqrt(detection * association) / kThresholds;
+    scores.detection += detection;
+    scores.association += association;
+    scores.hota += std::sqrt(detection * association);
+  }
+  for (double* score : {&scores.detection, &scores.association, &scores.hota}) {
+    *score /= kThresholds;  // last, so that a perfect one is exactly 1
   }
   return scores;
 }
