@@ -44,6 +44,12 @@ if(VANTAGE_SANITIZE)
   target_link_options(vantage_options INTERFACE -fsanitize=${VANTAGE_SANITIZE})
 endif()
 
+# libFuzzer finds its way by what of the libraries an input reached: tests/fuzz/CMakeLists.txt.
+option(VANTAGE_LIBFUZZER "Build the fuzz targets with clang's libFuzzer" OFF)
+if(VANTAGE_LIBFUZZER)
+  target_compile_options(vantage_options INTERFACE -fsanitize=fuzzer-no-link)
+endif()
+
 # What turns a slip in memory into an end instead of an exploit.
 if(NOT VANTAGE_SANITIZE)
   target_compile_options(vantage_options INTERFACE
