@@ -44,6 +44,7 @@ void add_object_options(CLI::App& verb, ObjectSource& source) {
       ->option_text("given|pnp|voting|svd|given+pnp|FILE")
       ->group("Known objects");
   source.how.add_to(verb);
+  source.how.add_depth_lens_to(verb);
 }
 
 void add_volume_options(CLI::App& verb, PlanOptions& plan) {

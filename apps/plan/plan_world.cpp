@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "options/unused_options.hpp"
+#include "reconstruct/depth_lens.hpp"
 #include "reconstruct/scene_warnings.hpp"
 #include "reconstruct/world_file.hpp"
 #include "vantage/raycore/error.hpp"
@@ -146,7 +147,11 @@ PlanWorld load_plan_world(const fs::path& dataset, const std::vector<int>& image
                           const Workcell& workcell, const ObjectSource& source,
                           const StopToken& stop) {
   SceneReconstructionOptions options = options_of(source.how);
-  const BopScene scene = load_dataset(dataset, workcell, images, options.observe);
+  BopScene scene = load_dataset(dataset, workcell, images, options.observe);
+  apply_depth_lens(source.how.depth_lens == "auto"
+                       ? workcell.depth_lens
+                       : depth_lens_of(source.how.depth_lens, "--depth-lens"),
+                   calibrations_of(workcell, options.observe), scene);
   PlanWorld plan{{}, source.objects, scene.files, scene.warnings, scene.images.front().intrinsics};
   if (plan.objects.empty()) plan.objects = usual_source(scene, workcell);
   const std::string method = plan.objects.starts_with(kGivenAnd)

@@ -9,6 +9,7 @@
 #include <set>
 
 #include "cli/run_time.hpp"
+#include "cli/signal_handler.hpp"
 #include "reconstruct/calibration_list.hpp"
 #include "reconstruct/missing_markers.hpp"
 #include "vantage/raycore/error.hpp"
@@ -23,14 +24,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const std::vector<fs::path>& calibrations_of(const Workcell& workcell,
-                                             const ObserveOptions& options) {
-  return options.calibrations.empty() ? workcell.calibrations : options.calibrations;
-}
-
 /// Appends what other detectors saw.
 void add_from_files(const BopScene& scene, ObservedScene& observed,
                     const std::vector<fs::path>& files) {
+  const ReadingPhase reading;
   for (const fs::path& file : files) {
     for (auto& [id, seen] : read_observations(file)) {
       const auto image = std::find_if(scene.images.begin(), scene.images.end(),
@@ -103,6 +100,11 @@ void explain_missing_markers(const BopScene& scene, const Workcell& workcell, co
 
 }  // namespace
 
+const std::vector<fs::path>& calibrations_of(const Workcell& workcell,
+                                             const ObserveOptions& options) {
+  return options.calibrations.empty() ? workcell.calibrations : options.calibrations;
+}
+
 CameraSource camera_source_of(const std::string& name) {
   if (name == "auto") return CameraSource::automatic;
   if (name == "board") return CameraSource::board;
@@ -112,6 +114,7 @@ CameraSource camera_source_of(const std::string& name) {
 
 BopScene load_dataset(const fs::path& folder, const Workcell& workcell,
                       std::span<const int> only_ids, const ObserveOptions& options) {
+  const ReadingPhase reading;
   const std::vector<fs::path>& calibrations = calibrations_of(workcell, options);
   const bool is_scene = is_bop_scene(folder) || !fs::is_directory(folder);
   if (is_scene) return load_bop_scene(folder, workcell.sensor_range, only_ids);

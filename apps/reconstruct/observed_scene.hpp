@@ -33,6 +33,10 @@ struct ObserveOptions {
   LocateOptions locate = {};
 };
 
+/// The command line's calibrations, or else the workcell's.
+const std::vector<std::filesystem::path>& calibrations_of(const Workcell& workcell,
+                                                          const ObserveOptions& options);
+
 /// What the cameras saw. One element for each of the scene's images, in all lists.
 struct ObservedScene {
   std::vector<CameraView> views;                ///< without what they saw of the board

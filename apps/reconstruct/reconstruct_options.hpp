@@ -14,12 +14,14 @@ namespace vantage {
 struct ReconstructCommandOptions {
   std::string method = "pnp";
   std::string cameras = "auto";
+  std::string depth_lens = "auto";  ///< of verbs that use depth images
   std::vector<std::filesystem::path> calibrations, features;
   bool no_markers = false, no_ambiguous = false;
   double inlier_px = ReconstructOptions().inlier_px;
 
-  /// All but --method, whose name verbs differ in.
+  /// All but --method, whose name verbs differ in, and --depth-lens.
   void add_to(CLI::App& verb);
+  void add_depth_lens_to(CLI::App& verb);
 };
 
 /// @throws Error bad_input for a method or a camera source that does not exist.

@@ -128,7 +128,10 @@ void write_cell_bundle(const fs::path& file, const Workcell& workcell,
   SortedJson root = read_yaml(file).root;
   write_out_random_objects(workcell, root);
   if (root.contains("sensor")) root["sensor"].erase("calibration");  // of another recording
-  if (!calibrations.empty()) root["sensor"]["calibration"] = calibrations;
+  if (!calibrations.empty()) {
+    root["sensor"]["calibration"] = calibrations;
+    root["sensor"]["depth_lens"] = "pinhole";  // as depth is simulated
+  }
   const fs::path from = file.parent_path();
   const std::string prefix = std::string(kCopies) + "/";
   Copies copies(folder / kCopies);

@@ -6,6 +6,7 @@
 #include <map>
 #include <string>
 
+#include "cli/signal_handler.hpp"
 #include "documents/schema_check.hpp"
 #include "documents/schemas.hpp"
 #include "documents/value_readers.hpp"
@@ -33,6 +34,10 @@ std::vector<fs::path> named_files(const Value& value, const fs::path& folder,
 void read_sensor(const Value& value, const fs::path& folder, Workcell& workcell) {
   if (value.has("calibration")) {
     workcell.calibrations = named_files(value["calibration"], folder, workcell.files);
+  }
+  if (value.has("depth_lens")) {
+    const bool is_pinhole = value["depth_lens"].as<std::string>() == "pinhole";
+    workcell.depth_lens = is_pinhole ? DepthLens::pinhole : DepthLens::calibrated;
   }
   if (value.has("depth_range_m")) workcell.sensor_range = read_range(value["depth_range_m"]);
   if (value.has("intrinsics")) workcell.sensor_intrinsics = read_intrinsics(value["intrinsics"]);
@@ -133,6 +138,7 @@ void read_contents(const Value& root, const fs::path& folder, Workcell& workcell
 }  // namespace
 
 Workcell load_workcell(const fs::path& path, const ViewConstraints& usual) {
+  const ReadingPhase reading;
   const Document document = read_yaml(path);
   check_schema(document, workcell_schema());
   const Value root(document);

@@ -25,6 +25,13 @@ struct CellCamera {
   PinholeCamera camera;
 };
 
+/// How the dataset's depth images were taken, where a calibration says that the lens distorts.
+enum class DepthLens {
+  unsaid,      ///< as a pinhole's, with a warning
+  pinhole,     ///< they are rectified, and `cam_K` is theirs
+  calibrated,  ///< registered to the colour image, and distorted as it is
+};
+
 /// A RealSense D435's colour stream at 640 × 480, rounded.
 inline constexpr Intrinsics kUsualIntrinsics{640, 480, 615, 615, 319.5, 239.5};
 
@@ -34,6 +41,7 @@ struct Workcell {
   DepthRange sensor_range = {};                          ///< of the dataset's cameras
   Intrinsics sensor_intrinsics = kUsualIntrinsics;       ///< of the simulated cell's cameras
   std::vector<std::filesystem::path> calibrations = {};  ///< of the dataset's: one, or one for each
+  DepthLens depth_lens = DepthLens::unsaid;              ///< of the dataset's depth images
   std::optional<Intrinsics> movable_intrinsics = {};     ///< none: like the dataset's first camera
   DepthRange movable_range = {};
   CandidateSet candidates = production_views();
