@@ -16,4 +16,16 @@ class SignalHandler {
   SignalHandler& operator=(const SignalHandler&) = delete;
 };
 
+/// While it lives, the first Ctrl-C ends the process at once, with exit code 130: files are being
+/// read, so that there is no result yet that could be saved, and no reader has to ask, however long
+/// one file takes. Without a SignalHandler it does nothing. They may be nested.
+class ReadingPhase {
+ public:
+  /// @throws Error cancelled if the signal came before.
+  ReadingPhase();
+  ~ReadingPhase();
+  ReadingPhase(const ReadingPhase&) = delete;
+  ReadingPhase& operator=(const ReadingPhase&) = delete;
+};
+
 }  // namespace vantage

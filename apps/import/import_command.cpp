@@ -26,6 +26,7 @@ struct ImportOptions {
 };
 
 ImportedDataset read_source(const ImportOptions& options) {
+  const ReadingPhase reading;
   const fs::path& source = options.source;
   if (!fs::is_directory(source)) {
     throw bad_input(source.string(), "no such folder; expected the folder of a recording");

@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 
+#include "cli/signal_handler.hpp"
 #include "vantage/raycore/error.hpp"
 #include "vantage/reconstruction/calibration.hpp"
 
@@ -66,6 +67,7 @@ std::vector<Lens> lenses_by_id(const BopScene& scene, const std::vector<GivenCal
 }  // namespace
 
 std::vector<Lens> lenses_of(const BopScene& scene, const std::vector<fs::path>& calibrations) {
+  const ReadingPhase reading;
   std::vector<GivenCalibration> given;
   for (const fs::path& text : calibrations) given.push_back(given_calibration(text));
   if (std::ranges::any_of(given, [](const auto& one) { return one.image.has_value(); })) {

@@ -219,6 +219,22 @@ TEST_CASE("Ctrl-C gives exit code 130 and the partial plan") {
   CHECK(plan["partial"] == true);
 }
 
+TEST_CASE("Ctrl-C while files are read ends the process at once, and nothing is written") {
+  const test::TemporaryFolder folder;
+  const std::filesystem::path scene = test::write_scene(folder);
+  std::string numbers = "{\"7\": {\"cam_K\": [0";
+  for (int i = 0; i < 1'900'000; ++i) numbers += ", 1.2345678901234567";  // seconds of reading
+  folder.write("scene/scene_camera.json", numbers + "]}}");
+  const auto result = test::interrupt_vantage(
+      "plan '" + scene.string() + "'" + test::kSceneArea + " -o '" + (folder / "out").string() + "'",
+      0.1);
+  CAPTURE(result.err);
+  CHECK(result.exit_code == 130);
+  CHECK(result.err.find("interrupted") != std::string::npos);
+  CHECK(result.err.find("nothing written") != std::string::npos);
+  CHECK_FALSE(std::filesystem::exists(folder / "out"));
+}
+
 TEST_CASE("methods, further views and explanations, by the command line") {
   const test::TemporaryFolder folder;
   const std::string plan = "plan '" + test::write_scene(folder).string() + "'" + test::kSceneArea;

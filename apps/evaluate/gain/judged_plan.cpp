@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "cli/sha256.hpp"
+#include "cli/signal_handler.hpp"
 #include "documents/document_value.hpp"
 #include "documents/json_document.hpp"
 #include "documents/schema_check.hpp"
@@ -98,12 +99,8 @@ JudgedView view_of(const Value& view) {
   return result;
 }
 
-}  // namespace
-
-JudgedPlan read_judged_plan(const fs::path& workcell_file, const fs::path& plan_file,
-                            const StopToken& stop) {
-  const Document document = read_document(plan_file);
-  check_schema(document, plan_schema());
+JudgedPlan judged_plan(const Document& document, const fs::path& workcell_file,
+                       const fs::path& plan_file, const StopToken& stop) {
   const Value plan(document);
   if (plan["best"].is_null()) throw plan["best"].error("the plan has no best view to be judged");
   const PlainJson& json = document.root;
@@ -121,6 +118,23 @@ JudgedPlan read_judged_plan(const fs::path& workcell_file, const fs::path& plan_
   }
   if (!json["volumes_m3"].is_null()) judged.shadow_m3 = json["volumes_m3"]["shadow"];
   return judged;
+}
+
+}  // namespace
+
+JudgedPlan read_judged_plan(const fs::path& workcell_file, const fs::path& plan_file,
+                            const StopToken& stop) {
+  const ReadingPhase reading;
+  const Document document = read_document(plan_file);
+  check_schema(document, plan_schema());
+  try {
+    return judged_plan(document, workcell_file, plan_file, stop);
+  } catch (const PlainJson::exception& error) {  // the schema leaves `config` open
+    throw bad_input(document.place("/config"),
+                    fmt::format("is not as vantage writes it ({}); expected plan.json as it was "
+                                "written, plan anew",
+                                error.what()));
+  }
 }
 
 }  // namespace vantage
