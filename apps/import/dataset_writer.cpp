@@ -1,10 +1,15 @@
 #include "import/dataset_writer.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
+#include <cctype>
 #include <cstdint>
+#include <iterator>
 #include <set>
+#include <span>
 #include <string_view>
 
 #include "cli/pose_json.hpp"
@@ -22,8 +27,29 @@ using Json = nlohmann::ordered_json;
 
 constexpr const char* kImportRecord = "import.json";
 
+/// The folder while the dataset is being written. Unless it is finished, nothing of it stays: half a
+/// dataset looks like a whole one, and would be in the way of the next import.
+class UnfinishedDataset {
+ public:
+  explicit UnfinishedDataset(const fs::path& folder);
+  ~UnfinishedDataset();
+  UnfinishedDataset(const UnfinishedDataset&) = delete;
+  UnfinishedDataset& operator=(const UnfinishedDataset&) = delete;
+
+  void finish() { finished_ = true; }
+
+ private:
+  void refuse_foreign() const;
+  void remove_parts() const;
+
+  fs::path folder_;
+  bool was_there_;
+  bool finished_ = false;
+};
+
 /// Refuses to mix a dataset with what somebody else has put there.
-void claim(const fs::path& folder) {
+void UnfinishedDataset::refuse_foreign() const {
+  const fs::path& folder = folder_;
   if (fs::exists(folder) && !fs::is_directory(folder)) {
     throw bad_input(folder.string(), "there is a file of this name; name a folder for the dataset");
   }
@@ -33,11 +59,33 @@ void claim(const fs::path& folder) {
                     "the folder is not empty, and what is in it was not imported; "
                     "name another one, so that nothing is lost");
   }
-  for (const char* name : {"rgb", "depth"}) {
-    fs::remove_all(folder / name);
-    fs::create_directories(folder / name);
+}
+
+/// All that an import writes, of this time or of an earlier one.
+void UnfinishedDataset::remove_parts() const {
+  std::error_code ignored;
+  for (const char* name : {"rgb", "depth", "scene_camera.json"}) {
+    fs::remove_all(folder_ / name, ignored);
   }
-  for (const char* name : {"scene_camera.json", kImportRecord}) fs::remove(folder / name);
+  for (const auto& entry : fs::directory_iterator(folder_, ignored)) {
+    const std::string name = entry.path().filename().string();
+    if (name.starts_with("calibration") && name.ends_with(".yml")) fs::remove(entry, ignored);
+  }
+  fs::remove(folder_ / kImportRecord, ignored);
+}
+
+UnfinishedDataset::UnfinishedDataset(const fs::path& folder)
+    : folder_(folder), was_there_(fs::exists(folder)) {
+  refuse_foreign();
+  remove_parts();
+  for (const char* name : {"rgb", "depth"}) fs::create_directories(folder / name);
+}
+
+UnfinishedDataset::~UnfinishedDataset() {
+  if (finished_) return;
+  remove_parts();
+  std::error_code ignored;
+  if (!was_there_) fs::remove(folder_, ignored);
 }
 
 std::vector<int> chosen(const ImportedDataset& dataset, const ImportChoice& choice) {
@@ -61,8 +109,32 @@ std::vector<int> chosen(const ImportedDataset& dataset, const ImportChoice& choi
   return ids;
 }
 
+/// Whatever else a recording names, be it a file of passwords, is not copied, and would not be read.
+void check_ending(const fs::path& file, const ImportedImage& image) {
+  std::string ending = file.extension().string();
+  std::ranges::transform(ending, ending.begin(),
+                         [](unsigned char c) { return char(std::tolower(c)); });
+  constexpr std::array kEndings = {".png",  ".jpg", ".jpeg", ".tif", ".tiff",
+                                   ".bmp", ".webp", ".exr",  ".npy"};
+  if (std::ranges::find(kEndings, ending) != kEndings.end()) return;
+  throw bad_input(file.string(), fmt::format("image {} names it, and by its ending it is none; "
+                                             "expected one of {}",
+                                             image.name, fmt::join(kEndings, ", ")));
+}
+
+void check_pose(const ImportedImage& image) {
+  constexpr double kFarthest_m = 1e6;
+  if (!image.T_world_cam) return;
+  const Eigen::Vector3d& at = image.T_world_cam->translation();
+  if (at.cwiseAbs().maxCoeff() <= kFarthest_m) return;
+  throw bad_input(image.name, fmt::format("its camera is at ({:g}, {:g}, {:g}) m; expected "
+                                          "coordinates of at most {:g}",
+                                          at.x(), at.y(), at.z(), kFarthest_m));
+}
+
 /// Copies a file as rgb/000012.jpg or the like.
 void copy_image(const fs::path& from, const ImportedImage& image, const fs::path& folder, int id) {
+  check_ending(from, image);
   if (!fs::is_regular_file(from)) {
     throw bad_input(from.string(), fmt::format("missing: image {} needs it", image.name));
   }
@@ -119,16 +191,32 @@ void leave_out_colour(const std::vector<int>& ids, const fs::path& folder,
       "those of depth");
 }
 
+/// Some images at a time, so that Ctrl-C need not wait for all of a long recording.
+BopScene load_in_parts(const std::vector<int>& ids, const fs::path& folder, const StopToken& stop) {
+  constexpr std::size_t kPart = 32;
+  BopScene scene{folder, {}, {}};
+  for (std::size_t begin = 0; begin < ids.size(); begin += kPart) {
+    if (stop.stop_requested()) throw Error(ErrorCode::cancelled, "import", "interrupted");
+    const std::size_t count = std::min(kPart, ids.size() - begin);
+    BopScene part = load_bop_scene(folder, {}, std::span(ids).subspan(begin, count));
+    std::ranges::move(part.images, std::back_inserter(scene.images));
+    std::ranges::move(part.warnings, std::back_inserter(scene.warnings));
+    for (BopImage& image : scene.images) image.depth.reset();  // it was looked at, that is all
+  }
+  return scene;
+}
+
 /// What the dataset's own reader makes of what was written.
-BopScene read_back(const std::vector<int>& ids, const fs::path& folder, ImportedDataset& dataset) {
+BopScene read_back(const std::vector<int>& ids, const fs::path& folder, ImportedDataset& dataset,
+                   const StopToken& stop) {
   try {
-    return load_bop_scene(folder);
+    return load_in_parts(ids, folder, stop);
   } catch (const Error& error) {
     const bool is_size =
         std::string_view(error.what()).find("of one size") != std::string_view::npos;
     if (!is_size || dataset.format != "ScanNet") throw;
     leave_out_colour(ids, folder, dataset);
-    return load_bop_scene(folder);
+    return load_in_parts(ids, folder, stop);
   }
 }
 
@@ -145,12 +233,13 @@ Json write_imported(ImportedDataset& dataset, const ImportChoice& choice, const 
     throw bad_input(dataset.images[std::size_t(id)].name,
                     "has no depth image, and others have; choose with --images those that do");
   }
-  claim(folder);
+  UnfinishedDataset unfinished(folder);
   Json cameras = Json::object();
   stop.expect(ids.size());
   for (const int id : ids) {
     if (stop.stop_requested()) throw Error(ErrorCode::cancelled, "import", "interrupted");
     const ImportedImage& image = dataset.images[std::size_t(id)];
+    check_pose(image);
     if (!image.color.empty()) copy_image(image.color, image, folder / "rgb", id);
     if (!image.depth.empty()) copy_image(image.depth, image, folder / "depth", id);
     cameras[std::to_string(id)] = entry_of(image, depth_scale_mm);
@@ -165,7 +254,7 @@ Json write_imported(ImportedDataset& dataset, const ImportChoice& choice, const 
     if (fs::is_empty(folder / name)) fs::remove(folder / name);
   }
   write_file(folder / "scene_camera.json", cameras.dump(1) + "\n");
-  const BopScene scene = read_back(ids, folder, dataset);
+  const BopScene scene = read_back(ids, folder, dataset, stop);
   dataset.warnings.insert(dataset.warnings.end(), scene.warnings.begin(), scene.warnings.end());
   Json record{{"vantage", kVersion},
               {"format", dataset.format},
@@ -175,6 +264,7 @@ Json write_imported(ImportedDataset& dataset, const ImportChoice& choice, const 
               {"calibration", write_lenses(dataset, ids, scene, folder)},
               {"warnings", dataset.warnings}};
   write_file(folder / kImportRecord, record.dump(1) + "\n");
+  unfinished.finish();
   return record;
 }
 
