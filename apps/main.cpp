@@ -54,7 +54,7 @@ void refuse_empty_values(const CLI::App& app) {
 ExitCode answer(const CLI::App& app, const CLI::ParseError& error) {
   std::ostringstream out, err;
   const bool asked = app.exit(error, out, err) == 0;
-  std::cerr << printable(err.str()) << std::flush;
+  std::cerr << printable(shortened(err.str())) << std::flush;
   if (asked) print_text(out.str());
   return asked ? ExitCode::ok : ExitCode::usage;
 }

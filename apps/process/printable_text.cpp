@@ -56,4 +56,15 @@ std::string printable(std::string_view text) {
   return result;
 }
 
+std::string shortened(std::string_view text) {
+  constexpr std::size_t kStart = 6000, kEnd = 1000;
+  if (text.size() <= 2 * (kStart + kEnd)) return std::string(text);
+  const auto is_inside = [&](std::size_t i) { return (byte_at(text, i) & 0xC0) == 0x80; };
+  std::size_t start = kStart, end = text.size() - kEnd;
+  while (start > 0 && is_inside(start)) --start;  // no character is cut in two
+  while (end < text.size() && is_inside(end)) ++end;
+  return fmt::format("{} … ({} bytes left out) … {}", text.substr(0, start), end - start,
+                     text.substr(end));
+}
+
 }  // namespace vantage

@@ -10,4 +10,7 @@ namespace vantage {
 /// and tabs stay.
 std::string printable(std::string_view text);
 
+/// A text of many kilobytes without its middle: messages repeat what was found, however long it is.
+std::string shortened(std::string_view text);
+
 }  // namespace vantage

@@ -25,7 +25,7 @@ class PrintableMessage : public spdlog::custom_flag_formatter {
  public:
   void format(const spdlog::details::log_msg& message, const std::tm&,
               spdlog::memory_buf_t& to) override {
-    const std::string text = printable({message.payload.data(), message.payload.size()});
+    const std::string text = printable(shortened({message.payload.data(), message.payload.size()}));
     to.append(text.data(), text.data() + text.size());
   }
   std::unique_ptr<spdlog::custom_flag_formatter> clone() const override {

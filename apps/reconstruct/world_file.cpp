@@ -4,6 +4,7 @@
 
 #include <set>
 
+#include "cli/signal_handler.hpp"
 #include "documents/document_value.hpp"
 #include "documents/json_document.hpp"
 #include "documents/schema_check.hpp"
@@ -23,6 +24,10 @@ std::optional<Matrix6d> read_covariance(const Value& object) {
   const double scale = covariance.diagonal().cwiseAbs().maxCoeff();
   if ((covariance - covariance.transpose()).cwiseAbs().maxCoeff() > 1e-6 * scale) {
     throw object["covariance"].error("not symmetric, so no covariance");
+  }
+  if (covariance.diagonal().minCoeff() < 0) {
+    throw object["covariance"].error(fmt::format("a variance in it is {}; expected 0 or more",
+                                                 covariance.diagonal().minCoeff()));
   }
   return covariance;
 }
@@ -50,6 +55,7 @@ KnownObject read_object(const Value& value, const KnowledgeBase& knowledge) {
 }  // namespace
 
 WorldFile read_world(const std::filesystem::path& file, const KnowledgeBase& knowledge) {
+  const ReadingPhase reading;
   const Document document = read_document(file);
   check_schema(document, world_schema());
   const Value root(document);

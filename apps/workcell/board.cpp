@@ -67,6 +67,19 @@ std::string layout_of(const Value& value) {
                                 given.empty() ? "none" : std::to_string(given.size())));
 }
 
+/// Most often a slip of the decimal point, with which every camera would be somewhere else.
+void check_on_plate(const Marker& marker, const Eigen::Vector2d& size_m, const Value& value) {
+  const Eigen::Vector2d at = marker.T_object_marker.translation().head<2>();
+  if ((at.array().abs() > size_m.array() / 2).any()) {
+    throw value["at_m"].error(
+        fmt::format("marker {} is at ({}, {}) m, beside the board of {} x {} m around (0, 0)",
+                    marker.id, at.x(), at.y(), size_m.x(), size_m.y()));
+  }
+  if (marker.size_m <= size_m.minCoeff()) return;
+  throw value["size_m"].error(fmt::format("marker {} is {} m wide, more than the board of {} x {} m",
+                                          marker.id, marker.size_m, size_m.x(), size_m.y()));
+}
+
 void read_listed_markers(const Value& value, Board& board, FreeMarkers& free) {
   for (const char* key : {"size_m", "dictionary"}) {
     if (!value.has(key)) {
@@ -74,8 +87,10 @@ void read_listed_markers(const Value& value, Board& board, FreeMarkers& free) {
           fmt::format("the key \"{}\" is missing; a board with markers needs it", key));
     }
   }
+  const Eigen::Vector2d size_m(value["size_m"].number(0), value["size_m"].number(1));
   for (const Value& element : value["markers"].elements()) {
     board.markers.push_back(read_board_marker(element, value["dictionary"]));
+    check_on_plate(board.markers.back(), size_m, element);
     free.take(board.markers.back(), element["id"]);
   }
 }

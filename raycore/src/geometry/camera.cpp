@@ -113,6 +113,18 @@ void check_positive(double value, const char* name, std::string_view where) {
                   fmt::format("{} is {}; expected a finite number above 0", name, value));
 }
 
+constexpr double kMaxPixels = 1e7;         // of a focal length, and of a principal point
+constexpr double kMinFocalLength = 0.001;  // image sides: what it sees then is a half-space
+
+/// Whatever lies outside is no camera's, and what is computed with it is no number.
+void check_focal_length(double f, int side, const char* name, std::string_view where) {
+  check_positive(f, name, where);
+  if (f >= kMinFocalLength * side && f <= kMaxPixels) return;
+  throw bad_input(std::string(where),
+                  fmt::format("{} is {}; expected {:g} to {:g} pixels for an image of {}", name, f,
+                              kMinFocalLength * side, kMaxPixels, side));
+}
+
 }  // namespace
 
 void Intrinsics::check(std::string_view where) const {
@@ -121,11 +133,13 @@ void Intrinsics::check(std::string_view where) const {
     throw bad_input(std::string(where),
                     fmt::format("{} is {}; expected 1 to {} pixels", name, side, kMaxImageSide));
   }
-  check_positive(fx, "fx", where);
-  check_positive(fy, "fy", where);
+  check_focal_length(fx, width, "fx", where);
+  check_focal_length(fy, height, "fy", where);
   for (const auto& [value, name] : {std::pair{cx, "cx"}, std::pair{cy, "cy"}}) {
-    if (std::isfinite(value)) continue;
-    throw bad_input(std::string(where), fmt::format("{} is {}; expected a number", name, value));
+    if (std::abs(value) <= kMaxPixels) continue;
+    throw bad_input(std::string(where),
+                    fmt::format("{} is {}; expected pixels, of at most {:g}", name, value,
+                                kMaxPixels));
   }
 }
 

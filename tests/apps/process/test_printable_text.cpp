@@ -24,6 +24,19 @@ TEST_CASE("control characters and bytes that are no UTF-8 are escaped") {
   CHECK(printable("\xf4\x90\x80\x80x") == "\\xf4\\x90\\x80\\x80x");  // beyond Unicode
 }
 
+TEST_CASE("what is very long loses its middle, and no character is cut in two") {
+  const std::string usual(14000, 'x');
+  CHECK(shortened(usual) == usual);
+  std::string text;
+  for (int i = 0; i < 10000; ++i) text += "€";
+  const std::string cut = shortened("ab" + text + "c");
+  CHECK(cut.size() < 8000);
+  CHECK(cut.starts_with("ab€"));
+  CHECK(cut.ends_with("€c"));
+  CHECK(cut.find("bytes left out") != std::string::npos);
+  CHECK(printable(cut) == cut);  // all of it is UTF-8
+}
+
 TEST_CASE("numbers that begin with a dot are no options") {
   const char* words[] = {"vantage", "-.5", "-.x", "-.", "-o", "-0.5", "--a=-.5", ".5"};
   const auto plain = plain_arguments(int(std::size(words)), const_cast<char**>(words));

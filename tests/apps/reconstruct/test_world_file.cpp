@@ -137,6 +137,7 @@ TEST_CASE("a world.json that is damaged is refused with the place") {
   refused([](auto& w) { w["objects"][0]["name"] = "cube 2"; }, "objects[1].name", "twice");
   refused([](auto& w) { w["cameras"][1]["image"] = 3; }, "cameras[1].image", "twice");
   refused([](auto& w) { w["objects"][0]["covariance"][0][3] = 1; }, "covariance", "symmetric");
+  refused([](auto& w) { w["objects"][0]["covariance"][2][2] = -1e-8; }, "covariance", "variance");
   refused([](auto& w) { w["objects"][0]["T_world_object"]["rotation"]["w"] = 2; }, "rotation",
           "norm");
   refused([](auto& w) { w["objects"][0].erase("T_world_object"); }, "objects[0].T_world_object",

@@ -107,6 +107,14 @@ TEST_CASE("boards that cannot be are refused with their key") {
       "board.grid.dictionary", {"no marker dictionary '9X9'", "4X4_50"});
 }
 
+TEST_CASE("markers beside their board or wider than it are refused") {
+  const std::string board = "board: {size_m: [0.5, 0.3], dictionary: 4X4_50, markers: [";
+  expect_pattern_refused(board + "{id: 1, size_m: 0.04, at_m: [0.2, 15]}]}\n",
+                         "board.markers[0].at_m", {"(0.2, 15)", "0.5 x 0.3"});
+  expect_pattern_refused(board + "{id: 1, size_m: 0.4, at_m: [0, 0]}]}\n",
+                         "board.markers[0].size_m", {"0.4 m wide"});
+}
+
 TEST_CASE("poses as matrix, roll pitch yaw, and by what they look at") {
   const Eigen::Matrix4d quaternion = pose_in(
       "translation_m: [1, 2, 3], rotation: {w: 0.7071067811865476, x: 0, y: 0, z: "

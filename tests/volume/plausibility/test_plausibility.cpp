@@ -119,6 +119,21 @@ TEST_CASE("poses the wrong way round, with other axes or in another unit are nam
   }
 }
 
+TEST_CASE("a work area beyond a camera's depth range is named") {
+  for (std::uint32_t seed = 0; seed < scene_count(15); ++seed) {
+    CAPTURE(seed);
+    Cell cell(seed);
+    DepthCamera& last = cell.world.cameras.back();
+    const PinholeCamera& camera = last.camera;
+    last.camera = PinholeCamera(camera.intrinsics(), camera.T_world_cam(), {0.1, 0.3});
+    last.depth = nullptr;
+    const std::string found = cell.finding();
+    CAPTURE(found);
+    CHECK(says(found, ("image " + last.name + ": the work area lies").c_str()));
+    CHECK(says(found, "its depth range is 0.1 to 0.3 m"));
+  }
+}
+
 TEST_CASE("depth in another scale, in whole metres, or without readings is named") {
   for (std::uint32_t seed = 0; seed < scene_count(15); ++seed) {
     CAPTURE(seed);

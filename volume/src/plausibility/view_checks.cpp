@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "plausibility/checks.hpp"
 #include "plausibility/pose_readings.hpp"
@@ -36,6 +37,26 @@ std::string cause_of(const std::vector<const SampledCamera*>& cameras, const Box
          "down, z forward) and the work area (metres, in the same world frame)";
 }
 
+/// Empty where a part of the work area lies between the near and the far limit.
+std::string range_misfit(const PinholeCamera& camera, const Box& work_area) {
+  const Pose T_cam_world = camera.T_world_cam().inverse();
+  double nearest_m = std::numeric_limits<double>::max(), farthest_m = -nearest_m;
+  for (int corner = 0; corner < 8; ++corner) {
+    Eigen::Vector3d at = work_area.min();
+    for (int axis = 0; axis < 3; ++axis) {
+      if ((corner >> axis & 1) != 0) at[axis] = work_area.max()[axis];
+    }
+    const double depth_m = (T_cam_world * at).z();
+    nearest_m = std::min(nearest_m, depth_m), farthest_m = std::max(farthest_m, depth_m);
+  }
+  const DepthRange& range = camera.range();
+  if (nearest_m <= range.far_m && farthest_m >= range.near_m) return {};
+  return fmt::format("the work area lies {:.3g} to {:.3g} m before it, and its depth range is {:g} "
+                     "to {:g} m: check the pose, and the depth range (--depth-range, sensor: "
+                     "depth_range_m)",
+                     nearest_m, farthest_m, range.near_m, range.far_m);
+}
+
 }  // namespace
 
 void check_views(const std::vector<SampledCamera>& cameras, const Box& work_area,
@@ -57,6 +78,12 @@ void check_views(const std::vector<SampledCamera>& cameras, const Box& work_area
     for (const SampledCamera& camera : cameras) all.push_back(&camera);
     std::string misread = misread_poses(all, work_area);
     if (!misread.empty()) findings.push_back(std::move(misread));
+  }
+  for (const SampledCamera& camera : cameras) {
+    const bool said = !findings.empty() || camera.coverage <= kSeesNothing;
+    if (said || cameras.size() > kFewCameras) continue;
+    const std::string odd = range_misfit(camera.camera->camera, work_area);
+    if (!odd.empty()) findings.push_back(fmt::format("image {}: {}", camera.camera->name, odd));
   }
   for (const SampledCamera& camera : cameras) {
     const std::string odd = resolution_misfit(camera.camera->camera.intrinsics());
