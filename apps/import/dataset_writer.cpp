@@ -27,8 +27,8 @@ using Json = nlohmann::ordered_json;
 
 constexpr const char* kImportRecord = "import.json";
 
-/// The folder while the dataset is being written. Unless it is finished, nothing of it stays: half a
-/// dataset looks like a whole one, and would be in the way of the next import.
+/// The folder while the dataset is being written. Unless it is finished, nothing of it stays: half
+/// a dataset looks like a whole one, and would be in the way of the next import.
 class UnfinishedDataset {
  public:
   explicit UnfinishedDataset(const fs::path& folder);
@@ -109,12 +109,13 @@ std::vector<int> chosen(const ImportedDataset& dataset, const ImportChoice& choi
   return ids;
 }
 
-/// Whatever else a recording names, be it a file of passwords, is not copied, and would not be read.
+/// Whatever else a recording names, be it a file of passwords, is not copied, and would not be
+/// read.
 void check_ending(const fs::path& file, const ImportedImage& image) {
   std::string ending = file.extension().string();
   std::ranges::transform(ending, ending.begin(),
                          [](unsigned char c) { return char(std::tolower(c)); });
-  constexpr std::array kEndings = {".png",  ".jpg", ".jpeg", ".tif", ".tiff",
+  constexpr std::array kEndings = {".png", ".jpg",  ".jpeg", ".tif", ".tiff",
                                    ".bmp", ".webp", ".exr",  ".npy"};
   if (std::ranges::find(kEndings, ending) != kEndings.end()) return;
   throw bad_input(file.string(), fmt::format("image {} names it, and by its ending it is none; "

@@ -138,10 +138,10 @@ ImportedDataset read_colmap(const fs::path& source) {
     dataset.images.push_back(std::move(image));
   }
   if (without_picture > 0) {
-    dataset.warnings.push_back(fmt::format("{}: {} of {} pictures are not there; only their depth "
-                                           "images are taken",
-                                           (source / "images").string(), without_picture,
-                                           dataset.images.size()));
+    dataset.warnings.push_back(
+        fmt::format("{}: {} of {} pictures are not there; only their depth "
+                    "images are taken",
+                    (source / "images").string(), without_picture, dataset.images.size()));
   }
   std::ranges::stable_sort(dataset.images, {}, &ImportedImage::name);
   dataset.warnings.push_back(

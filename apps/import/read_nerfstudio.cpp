@@ -148,9 +148,9 @@ ImportedDataset read_nerfstudio(const fs::path& source) {
   if (any_depth && document.root.contains("depth_unit_scale_factor")) {
     const json& factor = document.root["depth_unit_scale_factor"];
     if (!factor.is_number() || !(factor.get<double>() > 0)) {
-      throw bad_input(document.place("/depth_unit_scale_factor"),
-                      fmt::format("found {}; expected metres of one count of the depth images",
-                                  shown(factor)));
+      throw bad_input(
+          document.place("/depth_unit_scale_factor"),
+          fmt::format("found {}; expected metres of one count of the depth images", shown(factor)));
     }
     dataset.depth_scale_mm = 1000 * factor.get<double>();
   }

@@ -137,9 +137,8 @@ void Intrinsics::check(std::string_view where) const {
   check_focal_length(fy, height, "fy", where);
   for (const auto& [value, name] : {std::pair{cx, "cx"}, std::pair{cy, "cy"}}) {
     if (std::abs(value) <= kMaxPixels) continue;
-    throw bad_input(std::string(where),
-                    fmt::format("{} is {}; expected pixels, of at most {:g}", name, value,
-                                kMaxPixels));
+    throw bad_input(std::string(where), fmt::format("{} is {}; expected pixels, of at most {:g}",
+                                                    name, value, kMaxPixels));
   }
 }
 
