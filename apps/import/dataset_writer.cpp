@@ -1,8 +1,11 @@
 #include "import/dataset_writer.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
+#include <cctype>
 #include <cstdint>
 #include <iterator>
 #include <set>
@@ -24,8 +27,8 @@ using Json = nlohmann::ordered_json;
 
 constexpr const char* kImportRecord = "import.json";
 
-/// The folder while the dataset is being written. Unless it is finished, nothing of it stays: half a
-/// dataset looks like a whole one, and would be in the way of the next import.
+/// The folder while the dataset is being written. Unless it is finished, nothing of it stays: half
+/// a dataset looks like a whole one, and would be in the way of the next import.
 class UnfinishedDataset {
  public:
   explicit UnfinishedDataset(const fs::path& folder);
@@ -107,8 +110,33 @@ std::vector<int> chosen(const ImportedDataset& dataset, const ImportChoice& choi
   return ids;
 }
 
+/// Whatever else a recording names, be it a file of passwords, is not copied, and would not be
+/// read.
+void check_ending(const fs::path& file, const ImportedImage& image) {
+  std::string ending = file.extension().string();
+  std::ranges::transform(ending, ending.begin(),
+                         [](unsigned char c) { return char(std::tolower(c)); });
+  constexpr std::array kEndings = {".png", ".jpg",  ".jpeg", ".tif", ".tiff",
+                                   ".bmp", ".webp", ".exr",  ".npy"};
+  if (std::ranges::find(kEndings, ending) != kEndings.end()) return;
+  throw bad_input(file.string(), fmt::format("image {} names it, and by its ending it is none; "
+                                             "expected one of {}",
+                                             image.name, fmt::join(kEndings, ", ")));
+}
+
+void check_pose(const ImportedImage& image) {
+  constexpr double kFarthest_m = 1e6;
+  if (!image.T_world_cam) return;
+  const Eigen::Vector3d& at = image.T_world_cam->translation();
+  if (at.cwiseAbs().maxCoeff() <= kFarthest_m) return;
+  throw bad_input(image.name, fmt::format("its camera is at ({:g}, {:g}, {:g}) m; expected "
+                                          "coordinates of at most {:g}",
+                                          at.x(), at.y(), at.z(), kFarthest_m));
+}
+
 /// Copies a file as rgb/000012.jpg or the like.
 void copy_image(const fs::path& from, const ImportedImage& image, const fs::path& folder, int id) {
+  check_ending(from, image);
   if (!fs::is_regular_file(from)) {
     throw bad_input(from.string(), fmt::format("missing: image {} needs it", image.name));
   }
@@ -213,6 +241,7 @@ Json write_imported(ImportedDataset& dataset, const ImportChoice& choice, const 
   for (const int id : ids) {
     if (stop.stop_requested()) throw Error(ErrorCode::cancelled, "import", "interrupted");
     const ImportedImage& image = dataset.images[std::size_t(id)];
+    check_pose(image);
     if (!image.color.empty()) copy_image(image.color, image, folder / "rgb", id);
     if (!image.depth.empty()) copy_image(image.depth, image, folder / "depth", id);
     cameras[std::to_string(id)] = entry_of(image, depth_scale_mm);

@@ -114,6 +114,7 @@ ImportedDataset read_colmap(const fs::path& source) {
   const auto cameras = read_cameras(dataset.files[0]);
   // Two lines for each image; the second one, its points, may be empty.
   const std::vector<TextLine> lines = read_text_lines(dataset.files[1]);
+  std::size_t without_picture = 0;
   for (std::size_t i = 0; i < lines.size(); i += 2) {
     const TextLine& line = lines[i];
     if (line.empty()) throw bad_input(line.place(), "empty; expected an image's line");
@@ -128,7 +129,19 @@ ImportedDataset read_colmap(const fs::path& source) {
     const fs::path picture = source / "images" / image.name;
     if (fs::is_regular_file(picture)) image.color = picture;
     image.depth = depth_of(source, image.name);
+    if (image.color.empty() && image.depth.empty()) {
+      throw bad_input(picture.string(), fmt::format("missing, and there is no depth image either: "
+                                                    "{} names it",
+                                                    line.place()));
+    }
+    without_picture += image.color.empty();
     dataset.images.push_back(std::move(image));
+  }
+  if (without_picture > 0) {
+    dataset.warnings.push_back(
+        fmt::format("{}: {} of {} pictures are not there; only their depth "
+                    "images are taken",
+                    (source / "images").string(), without_picture, dataset.images.size()));
   }
   std::ranges::stable_sort(dataset.images, {}, &ImportedImage::name);
   dataset.warnings.push_back(

@@ -137,7 +137,9 @@ ImportedDataset read_nerfstudio(const fs::path& source) {
   for (std::size_t i = 0; i < document.root["frames"].size(); ++i) {
     const FrameValues frame(document, i);
     const auto name = frame.text("file_path");
-    if (!name) throw bad_input(frame.frame_place() + ".file_path", "missing; expected a picture");
+    if (!name || name->empty()) {
+      throw bad_input(frame.frame_place() + ".file_path", "missing; expected a picture");
+    }
     ImportedImage image{*name, intrinsics_of(frame), distortion_of(frame), pose_of(frame)};
     image.color = picture_of(source, *name);
     if (const auto depth = frame.text("depth_file_path")) image.depth = source / *depth;
@@ -147,9 +149,9 @@ ImportedDataset read_nerfstudio(const fs::path& source) {
   if (any_depth && document.root.contains("depth_unit_scale_factor")) {
     const json& factor = document.root["depth_unit_scale_factor"];
     if (!factor.is_number() || !(factor.get<double>() > 0)) {
-      throw bad_input(document.place("/depth_unit_scale_factor"),
-                      fmt::format("found {}; expected metres of one count of the depth images",
-                                  shown(factor)));
+      throw bad_input(
+          document.place("/depth_unit_scale_factor"),
+          fmt::format("found {}; expected metres of one count of the depth images", shown(factor)));
     }
     dataset.depth_scale_mm = 1000 * factor.get<double>();
   }

@@ -34,6 +34,17 @@ bool has_rings(const CandidateSet& set) {
   return grid == nullptr || grid->fan.rings > 0;  // other kinds have no such option at all
 }
 
+/// What is computed with larger numbers is infinite, somewhere.
+void check_extent(const Box& area, const std::string& where) {
+  constexpr double kFarthest_m = 1e9;
+  for (const Eigen::Vector3d& corner : {area.min(), area.max()}) {
+    if (corner.cwiseAbs().maxCoeff() <= kFarthest_m) continue;
+    throw bad_input(where, fmt::format("found a corner at ({:g}, {:g}, {:g}) m; expected "
+                                       "coordinates of at most {:g}",
+                                       corner.x(), corner.y(), corner.z(), kFarthest_m));
+  }
+}
+
 /// The workcell file with the command line's options over it.
 Workcell workcell_of(const PlanOptions& options) {
   std::optional<Box> area;
@@ -45,6 +56,8 @@ Workcell workcell_of(const PlanOptions& options) {
   Workcell workcell = options.workcell.empty() ? Workcell{.work_area = area.value()}
                                                : load_workcell(options.workcell);
   if (area) workcell.work_area = *area;
+  check_extent(workcell.work_area,
+               area ? "--work-area" : options.workcell.string() + ": work_area");
   read_given(options.given, {"",
                              "",
                              {voxel_size_field(workcell.voxel_size_m)},

@@ -41,10 +41,11 @@ void ReconstructCommandOptions::add_to(CLI::App& verb) {
 }
 
 void ReconstructCommandOptions::add_depth_lens_to(CLI::App& verb) {
-  verb.add_option("--depth-lens", depth_lens,
-                  "How depth images were taken, where the calibration's lens distorts; pinhole: they "
-                  "are rectified; calibrated: registered to the colour images, and distorted as they "
-                  "are; auto: the workcell's, or pinhole with a warning")
+  verb.add_option(
+          "--depth-lens", depth_lens,
+          "How depth images were taken, where the calibration's lens distorts; pinhole: they "
+          "are rectified; calibrated: registered to the colour images, and distorted as they "
+          "are; auto: the workcell's, or pinhole with a warning")
       ->check(CLI::IsMember({"auto", "pinhole", "calibrated"}))
       ->capture_default_str()
       ->group("Known objects");

@@ -75,8 +75,9 @@ void check_on_plate(const Marker& marker, const Eigen::Vector2d& size_m, const V
                     marker.id, at.x(), at.y(), size_m.x(), size_m.y()));
   }
   if (marker.size_m <= size_m.minCoeff()) return;
-  throw value["size_m"].error(fmt::format("marker {} is {} m wide, more than the board of {} x {} m",
-                                          marker.id, marker.size_m, size_m.x(), size_m.y()));
+  throw value["size_m"].error(
+      fmt::format("marker {} is {} m wide, more than the board of {} x {} m", marker.id,
+                  marker.size_m, size_m.x(), size_m.y()));
 }
 
 void read_listed_markers(const Value& value, Board& board, FreeMarkers& free) {

@@ -225,9 +225,9 @@ TEST_CASE("Ctrl-C while files are read ends the process at once, and nothing is 
   std::string numbers = "{\"7\": {\"cam_K\": [0";
   for (int i = 0; i < 1'900'000; ++i) numbers += ", 1.2345678901234567";  // seconds of reading
   folder.write("scene/scene_camera.json", numbers + "]}}");
-  const auto result = test::interrupt_vantage(
-      "plan '" + scene.string() + "'" + test::kSceneArea + " -o '" + (folder / "out").string() + "'",
-      0.1);
+  const auto result = test::interrupt_vantage("plan '" + scene.string() + "'" + test::kSceneArea +
+                                                  " -o '" + (folder / "out").string() + "'",
+                                              0.1);
   CAPTURE(result.err);
   CHECK(result.exit_code == 130);
   CHECK(result.err.find("interrupted") != std::string::npos);

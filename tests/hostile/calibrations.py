@@ -3,7 +3,7 @@
 import json
 
 import base
-from case import RECONSTRUCT, Case
+from case import PLAN, RECONSTRUCT, Case
 
 OPENCV = base.CALIBRATION
 ROS = {"image_width": 64, "image_height": 48, "camera_name": "c",
@@ -12,8 +12,10 @@ ROS = {"image_width": 64, "image_height": 48, "camera_name": "c",
 KALIBR = {"cam0": {"camera_model": "pinhole", "intrinsics": [52, 52, 31.5, 23.5], "distortion_model": "radtan",
     "distortion_coeffs": [0, 0, 0, 0], "resolution": [64, 48]}}
 XML = (
-    '<?xml version="1.0"?><opencv_storage><image_width>64</image_width><image_height>48</image_height><camera_matrix type_id="opencv-matrix"><rows>3</rows><cols>3</cols><dt>d</dt>'
-       '<data>52. 0. 31.5 0. 52. 23.5 0. 0. 1.</data></camera_matrix><distortion_coefficients type_id="opencv-matrix"><rows>1</rows><cols>4</cols><dt>d</dt>'
+    '<?xml version="1.0"?><opencv_storage><image_width>64</image_width><image_height>48'
+        '</image_height><camera_matrix type_id="opencv-matrix"><rows>3</rows><cols>3</cols><dt>d</dt>'
+       '<data>52. 0. 31.5 0. 52. 23.5 0. 0. 1.</data></camera_matrix>'
+           '<distortion_coefficients type_id="opencv-matrix"><rows>1</rows><cols>4</cols><dt>d</dt>'
        '<data>0. 0. 0. 0.</data></distortion_coefficients></opencv_storage>')
 
 
@@ -87,6 +89,11 @@ def cases():
     for name, content in {"OpenCV": OPENCV, "ROS": _ros(), "Kalibr": _kalibr(), "XML": XML,
         "fisheye": _ros(distortion_model="equidistant", distortion_coefficients=_distortion([0, 0, 0, 0]))}.items():
         yield Case("calibration/right " + name, ARGUMENTS + ["camera.yml"], 0, (), {"camera.yml": content})
+    bent = {"camera.yml": _ros(distortion_coefficients=_distortion([-0.1, 0, 0, 0, 0]))}
+    planned = PLAN + ["--calibration", "camera.yml"]
+    yield Case("calibration/depth of a lens that distorts", planned, 0, ("warning", "--depth-lens calibrated"), bent)
+    for kind in ("pinhole", "calibrated"):
+        yield Case(f"calibration/depth of a lens, {kind}", planned + ["--depth-lens", kind], 0, (), bent)
     for name, value, word in (("missing", "none.yml", "none.yml"), ("no such camera", "camera.yml#cam7", "cam7"),
         ("too many", "camera.yml,camera.yml,camera.yml", "3 files for 2 images"),
                               ("ids and none", "0=camera.yml,camera.yml", "id"),

@@ -25,16 +25,13 @@ RECONSTRUCT = ["reconstruct", "scene", "--workcell", "cell.yaml", "-o", "out"]
 
 
 def changed(document, path, value):
-    """A copy of nested lists and dicts with another value at "a.b.0"; REMOVED takes it away."""
+    """A copy of nested lists and dicts with another value at "a/0/b"; REMOVED takes it away."""
     copy = json.loads(json.dumps(document))
+    *outer, last = path.split("/")
     at = copy
-    keys = [int(k) if k.isdigit() and isinstance(document, (list, dict)) else k for k in path.split("/")]
-    for i, key in enumerate(keys[:-1]):
-        if isinstance(at, dict):
-            at = at.setdefault(path.split("/")[i], {})
-        else:
-            at = at[key]
-    last = keys[-1] if isinstance(at, list) else path.split("/")[-1]
+    for key in outer:
+        at = at[int(key)] if isinstance(at, list) else at.setdefault(key, {})
+    last = int(last) if isinstance(at, list) else last
     if value is REMOVED:
         del at[last]
     else:

@@ -12,7 +12,7 @@ WRONG = {
     "an empty dataset": ["plan", ""] + AREA, "no area": ["plan", "scene", "-o", "out"],
     "five numbers": ["plan", "scene"] + AREA[:-1], "words for numbers": ["plan", "scene", "--work-area", "a", "b",
     "c", "d", "e", "f"],
-    "nan": ["plan", "scene"] + AREA[:-1] + ["nan"], "voxels of 0": PLAN + ["--voxel-size", "0"],
+    "voxels of 0": PLAN + ["--voxel-size", "0"],
     "voxels of -1": PLAN + ["--voxel-size", "-1"], "voxels of 1e999": PLAN + ["--voxel-size", "1e999"],
     "voxels of 0x1": PLAN + ["--voxel-size", "0x1"], "voxels of nothing": PLAN + ["--voxel-size", ""],
     "voxels with a unit": PLAN + ["--voxel-size", "2cm"],
@@ -35,6 +35,7 @@ WRONG = {
     "raw bytes": PLAN + ["--method", "\x1b[31mred"],
 }
 BAD = {
+    "nan": (["plan", "scene"] + AREA[:-1] + ["nan"], "--work-area"),
     "area inside out": (["plan", "scene", "--work-area", "0", "0", "0", "1", "1", "0"], "--work-area"),
     "depth range inside out": (PLAN + ["--depth-range", "3", "1"], "--depth-range"),
     "image 9": (PLAN + ["--images", "9"], "9"), "image -1": (PLAN + ["--images", "-1"], "-1"),
@@ -85,4 +86,4 @@ def cases():
     yield Case("output/a device", PLAN, 3, ("out",), prepare=_device)
     yield Case("output/below /proc", PLAN[:5] + ["/proc/vantage"], 3, ("/proc/vantage",))
     yield Case("output/a long name", PLAN[:5] + ["o" * 5000], 3, ("ooo",))
-    yield Case("output/a picture of no format", ["render", "cell.yaml", "-o", "a.xyz"], (2, 3), ("a.xyz",))
+    yield Case("output/a picture of no format", ["render", "cell.yaml", "-o", "a.xyz"], (2, 3), ())

@@ -28,7 +28,7 @@ DAMAGED = {
     "corners 3D": _line(MARKER, corners_px=[[1, 2, 3]] * 4), 
     "dictionary unknown": _line(MARKER, dictionary="3X3_9"), "value -1": _line(MARKER, value=-1),
     "value 250": _line(MARKER, value=250), "value a text": _line(MARKER, value="10"),
-    "point behind": _line(LABEL, point_m=[0, 0, -0.5]), "point 2D": _line(LABEL, point_m=[0, 0]),
+    "point 2D": _line(LABEL, point_m=[0, 0]),
     "no value": _line(LABEL, value=None), "a key unknown": _line(LABEL, colour="red"),
     "rotation 0": _line(POSE, T_cam_feature={"rotation": {"w": 0, "x": 0, "y": 0, "z": 0},
     "translation_m": [0, 0, 1]}), 

@@ -52,9 +52,9 @@ NERF_WRONG = [
     ("frames/0/transform_matrix", "unit", "transform_matrix"),
     ("frames/0/transform_matrix/0/0", "1", "transform_matrix"), ("frames/0/transform_matrix/0/3", 1e300, "1e"),
     ("fl_x", REMOVED, "fl_x"), ("fl_x", "far", "fl_x"), ("fl_x", 0, "fx"),
-    ("w", -1, "w"), ("w", 1e9, "w"), ("w", "wide", "w"), ("k1", "much", "k1"), ("k1", 1e300, "distortion"),
+    ("w", -1, "w"), ("w", 1e9, "w"), ("w", "wide", "w"), ("k1", "much", "k1"), ("k1", 1e300, "k1"),
     ("camera_model", "SPHERICAL", "SPHERICAL"), ("camera_model", 5, "camera_model"),
-    ("depth_unit_scale_factor", "mm", "depth_unit_scale_factor"), ("depth_unit_scale_factor", -1, "depth_scale"),
+    ("depth_unit_scale_factor", "mm", "depth_unit_scale_factor"), ("depth_unit_scale_factor", -1, "depth_unit_scale_factor"),
     ("cx", 1e300, "cam_K"),
 ]
 NERF_TEXTS = {"empty": "", "cut off": json.dumps(TRANSFORMS)[:60], "list": "[]", "deep": "[" * 100000,

@@ -91,9 +91,13 @@ def _dae(numbers=NUMBERS, count=4, source="p", indices=CORNERS):
 ENTITIES = "<!DOCTYPE c [" + '<!ENTITY a0 "' + "x" * 100 + '">' + "".join(f'<!ENTITY a{i} "{f"&a{i - 1};" * 10}">'
     for i in range(1, 10)) + "]><COLLADA>&a9;</COLLADA>"
 EXTERNAL = '<!DOCTYPE c [<!ENTITY f SYSTEM "file:///etc/passwd">]><COLLADA version="1.4.1">&f;</COLLADA>'
-MODEL_3MF = '<?xml version="1.0"?><model unit="meter" xmlns="http://schemas.microsoft.com/3dmanufacturing/core/2015/02"><resources>{objects}</resources><build>{items}</build></model>'
+MODEL_3MF = ('<?xml version="1.0"?>'
+    '<model unit="meter" xmlns="http://schemas.microsoft.com/3dmanufacturing/core/2015/02">'
+    '<resources>{objects}</resources><build>{items}</build></model>')
 TYPES_3MF = '<Types xmlns="http://schemas.openxmlformats.org/package/2006/content-types"/>'
-RELATIONS = '<Relationships xmlns="http://schemas.openxmlformats.org/package/2006/relationships"><Relationship Target="/3D/3dmodel.model" Id="r" Type="http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel"/></Relationships>'
+RELATIONS = ('<Relationships xmlns="http://schemas.openxmlformats.org/package/2006/relationships">'
+    '<Relationship Target="/3D/3dmodel.model" Id="r" Type="http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel"/>'
+    '</Relationships>')
 
 
 def _3mf(model):
@@ -170,7 +174,8 @@ DAMAGED = {
     "index-out.3mf":
     _3mf(
     MODEL_3MF.format(
-    objects='<object id="1" type="model"><mesh><vertices><vertex x="0" y="0" z="0"/></vertices><triangles><triangle v1="0" v2="1" v3="99999999"/></triangles></mesh></object>',
+    objects=('<object id="1" type="model"><mesh><vertices><vertex x="0" y="0" z="0"/></vertices><triangles>'
+        '<triangle v1="0" v2="1" v3="99999999"/></triangles></mesh></object>'),
     items='<item objectid="1"/>')),
     "bomb.3mf": _3mf("<model>" + " " * (300 << 20)), "itself.3mf":
     _3mf(

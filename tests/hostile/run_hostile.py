@@ -96,13 +96,17 @@ def run(vantage, case, folder):
         killed.is_set())
 
 
-def left_behind(folder, code):
-    """What is wrong with the files of a run."""
+def results_in(folder):
+    return {path for path in (folder / "out").rglob("*") if path.is_file()} if (folder / "out").is_dir() else set()
+
+
+def left_behind(folder, code, before):
+    """What is wrong with the files of a run; those in `before` were there already."""
     faults = []
     for path in folder.rglob("*"):
         if path.name.startswith(".vantage-"):
             faults.append(f"{path.relative_to(folder)} was left")
-    results = [path for path in (folder / "out").rglob("*") if path.is_file()] if (folder / "out").is_dir() else []
+    results = sorted(results_in(folder) - before)
     if code in (2, 3, 6) and results:
         faults.append(f"failed, and wrote {results[0].relative_to(folder)} all the same")
     for path in results:
@@ -114,7 +118,7 @@ def left_behind(folder, code):
     return faults
 
 
-def faults_of(case, outcome, folder):
+def faults_of(case, outcome, folder, before):
     faults = []
     if outcome.killed:
         return [f"not done after {MAX_WALL_S} s"]
@@ -138,17 +142,18 @@ def faults_of(case, outcome, folder):
     for word in case.written:
         if word not in written:
             faults.append(f"the result does not say \"{word}\"")
-    return faults + left_behind(folder, outcome.code)
+    return faults + left_behind(folder, outcome.code, before)
 
 
 def check(vantage, case, parent, files, verbose):
     folder = pathlib.Path(parent) / case.name.replace("/", "-")
     folder.mkdir()
-    write_files(folder, {**files, **case.files} if case.arguments[0] != "import" else case.files)
+    write_files(folder, {**files, **case.files} if case.arguments[:1] != ["import"] else case.files)
     if case.prepare:
         case.prepare(folder)
+    before = results_in(folder)
     outcome = run(vantage, case, folder)
-    faults = faults_of(case, outcome, folder)
+    faults = faults_of(case, outcome, folder, before)
     message = outcome.err.decode(errors="replace").strip()
     if faults or verbose:
         print(f"{case.name}: {'; '.join(faults) if faults else 'right'}"

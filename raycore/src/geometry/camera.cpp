@@ -113,8 +113,8 @@ void check_positive(double value, const char* name, std::string_view where) {
                   fmt::format("{} is {}; expected a finite number above 0", name, value));
 }
 
-constexpr double kMaxPixels = 1e7;         // of a focal length, and of a principal point
-constexpr double kMinFocalLength = 0.001;  // image sides: what it sees then is a half-space
+constexpr double kMaxPixels = 1e7;        // of a focal length, and of a principal point
+constexpr double kMinFocalLength = 1e-6;  // image sides: what it sees then is a half-space
 
 /// Whatever lies outside is no camera's, and what is computed with it is no number.
 void check_focal_length(double f, int side, const char* name, std::string_view where) {
@@ -137,9 +137,8 @@ void Intrinsics::check(std::string_view where) const {
   check_focal_length(fy, height, "fy", where);
   for (const auto& [value, name] : {std::pair{cx, "cx"}, std::pair{cy, "cy"}}) {
     if (std::abs(value) <= kMaxPixels) continue;
-    throw bad_input(std::string(where),
-                    fmt::format("{} is {}; expected pixels, of at most {:g}", name, value,
-                                kMaxPixels));
+    throw bad_input(std::string(where), fmt::format("{} is {}; expected pixels, of at most {:g}",
+                                                    name, value, kMaxPixels));
   }
 }
 

@@ -185,6 +185,12 @@ TEST_CASE("a COLMAP text model with depth is imported: world to camera, empty li
                  {"FOV is not supported"});
   expect_refused([&] { with_camera("PINHOLE 8 6 50 sixty 4.5 3.5"); }, "cameras.txt:2",
                  {"\"sixty\""});
+  fs::remove(folder / "colmap/images/b.png");
+  const auto warnings = with_camera("PINHOLE 8 6 50 60 4.5 3.5").warnings;
+  CHECK(warnings.at(0).find("1 of 2 pictures are not there") != std::string::npos);
+  fs::remove(folder / "colmap/depth/b.png");
+  expect_refused([&] { with_camera("PINHOLE 8 6 50 60 4.5 3.5"); }, "images/b.png",
+                 {"missing", "images.txt:4"});
 }
 
 TEST_CASE("ScanNet's export is imported, and images without a pose are left out with a word") {
@@ -232,7 +238,7 @@ TEST_CASE("an import that fails or is interrupted leaves nothing, and can be don
   ImportedDataset dataset = read_tum(tum_folder(folder), Lens(kImportIntrinsics, {}));
   const fs::path image = dataset.images[1].depth, away = folder / "away.png";
   fs::rename(image, away);
-  expect_bad_input("1.013.png", "missing",
+  expect_bad_input(image.filename().string(), "missing",
                    [&] { write_imported(dataset, {}, folder / "dataset", {}); });
   CHECK_FALSE(fs::exists(folder / "dataset"));
   fs::rename(away, image);
@@ -242,6 +248,19 @@ TEST_CASE("an import that fails or is interrupted leaves nothing, and can be don
                [&] { write_imported(dataset, {}, folder / "dataset", stop); });
   CHECK_FALSE(fs::exists(folder / "dataset"));
   CHECK(imported(dataset, folder).images.size() == 2);
+}
+
+TEST_CASE("an import copies images only, of cameras that are somewhere") {
+  const TemporaryFolder folder;
+  const ImportedDataset dataset = read_tum(tum_folder(folder), Lens(kImportIntrinsics, {}));
+  ImportedDataset secret = dataset, far = dataset;
+  secret.images[1].color = folder.write("passwords", "root");
+  expect_bad_input("passwords", "by its ending it is none",
+                   [&] { write_imported(secret, {}, folder / "dataset", {}); });
+  far.images[1].T_world_cam = Pose::from_translation({1e300, 0, 0});
+  expect_bad_input(far.images[1].name, "its camera is at (1e+300, 0, 0) m",
+                   [&] { write_imported(far, {}, folder / "dataset", {}); });
+  CHECK_FALSE(fs::exists(folder / "dataset"));
 }
 
 }  // namespace vantage::test

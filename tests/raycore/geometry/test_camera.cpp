@@ -156,7 +156,7 @@ TEST_CASE("invalid intrinsics are refused with the value") {
   refuse(with(&Intrinsics::fx, -525.0), "fx is -525");
   refuse(with(&Intrinsics::fy, kNaN), "fy is nan");
   refuse(with(&Intrinsics::fy, kInfinity), "fy is inf");
-  refuse(with(&Intrinsics::fx, 1e-300), "fx is 1e-300; expected 0.64 to 1e+07");
+  refuse(with(&Intrinsics::fx, 1e-300), "fx is 1e-300; expected 0.00064 to 1e+07");
   refuse(with(&Intrinsics::fy, 1e300), "fy is 1e+300");
   refuse(with(&Intrinsics::cx, -1e300), "cx is -1e+300");
   refuse(with(&Intrinsics::cx, kNaN), "cx is nan");

@@ -51,10 +51,11 @@ std::string range_misfit(const PinholeCamera& camera, const Box& work_area) {
   }
   const DepthRange& range = camera.range();
   if (nearest_m <= range.far_m && farthest_m >= range.near_m) return {};
-  return fmt::format("the work area lies {:.3g} to {:.3g} m before it, and its depth range is {:g} "
-                     "to {:g} m: check the pose, and the depth range (--depth-range, sensor: "
-                     "depth_range_m)",
-                     nearest_m, farthest_m, range.near_m, range.far_m);
+  return fmt::format(
+      "the work area lies {:.3g} to {:.3g} m before it, and its depth range is {:g} "
+      "to {:g} m: check the pose, and the depth range (--depth-range, sensor: "
+      "depth_range_m)",
+      nearest_m, farthest_m, range.near_m, range.far_m);
 }
 
 }  // namespace
