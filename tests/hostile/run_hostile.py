@@ -3,7 +3,7 @@
 the right exit code, a message that names the file and what is wrong with it, within 2 s of computing
 and 1 GiB of memory, and with nothing half-written left.
 
-    tests/hostile/run_hostile.py --vantage FILE [--only EXPRESSION] [--jobs N] [--keep FOLDER] [--verbose]
+    tests/hostile/run_hostile.py --vantage FILE [--only EXPRESSION] [--every N] [--jobs N] [--keep FOLDER] [--verbose]
 
 The inputs are made here, case by case, from the small recording of base.py.
 """
@@ -166,11 +166,13 @@ def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("--vantage", required=True, type=lambda name: str(pathlib.Path(name).resolve()))
     parser.add_argument("--only", help="cases whose names match this expression")
+    parser.add_argument("--every", type=int, default=1, help="of the cases, each of so many: a sample")
     parser.add_argument("--jobs", type=int, default=2)
     parser.add_argument("--keep", help="a new folder for the inputs, which stay there")
     parser.add_argument("--verbose", action="store_true", help="show every message")
     arguments = parser.parse_args()
     cases = [case for case in all_cases() if not arguments.only or re.search(arguments.only, case.name)]
+    cases = cases[::arguments.every]
     start = time.time()
     files = base.files()
     with tempfile.TemporaryDirectory(prefix="vantage-hostile-") as temporary:

@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "tracking/presence.hpp"
+#include "reasoning/presence.hpp"
 
 namespace vantage::reconstruction::detail {
 

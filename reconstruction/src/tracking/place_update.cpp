@@ -8,17 +8,20 @@ namespace {
 constexpr double kUnlisted = 0.05;  ///< of a pose that a detection does not have
 constexpr double kMaxStep = 3;      ///< one snapshot is not all
 constexpr double kSwap = 1, kForget = -9;
+constexpr int kMaxDoubtless = 4;
 
 /// The pose of the detection that is likeliest under a filter.
 struct BestPose {
   std::optional<PoseMeasurement> measured;
+  std::size_t index = 0;
   double log = 0;  ///< of its likelihood; lower where none fits
 };
 
 BestPose best_pose(const PoseFilter& filter, const Place& place, const ObjectType& type,
                    const Detection& detection) {
   BestPose best;
-  for (const DetectedPose& detected : detection.poses) {
+  for (std::size_t i = 0; i < detection.poses.size(); ++i) {
+    const DetectedPose& detected = detection.poses[i];
     if (detected.type.get() != &type) continue;
     const PoseMeasurement measured = like(type, detected.measured, filter.pose());
     const NormalLikelihood likelihood =
@@ -27,7 +30,7 @@ BestPose best_pose(const PoseFilter& filter, const Place& place, const ObjectTyp
     const double log =
         -likelihood.squared_distance / 2 + std::log(std::max(detected.probability, kUnlisted));
     if (likelihood.squared_distance > kGate || (best.measured && log <= best.log)) continue;
-    best = {measured, log};
+    best = {measured, i, log};
   }
   if (!best.measured) best.log = -kGate / 2 + std::log(kUnlisted);
   return best;
@@ -75,7 +78,14 @@ void see_at(Place& place, const ObjectType& type, const Detection& detection, do
     place.other->log_ratio += std::clamp(others.log - mine.log, -kMaxStep, kMaxStep);
     if (others.measured) place.other->filter.update(*others.measured);
   }
-  if (mine.measured) place.filter.update(*mine.measured);
+  if (mine.measured) {
+    place.filter.update(*mine.measured);
+    if (!place.other && place.features < 2) {
+      place.other = other_pose(type, detection, mine.index, *mine.measured);
+      // Earlier snapshots had no doubt.
+      if (place.other) place.other->log_ratio -= std::min(place.seen, kMaxDoubtless);
+    }
+  }
   if (place.other && place.other->log_ratio > kSwap) swap_poses(place);
   if (place.other && place.other->log_ratio < kForget) place.other.reset();
   place.views = detection.views;

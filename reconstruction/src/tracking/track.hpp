@@ -4,8 +4,8 @@
 #include <optional>
 #include <vector>
 
+#include "reasoning/presence.hpp"
 #include "tracking/detection.hpp"
-#include "tracking/presence.hpp"
 #include "vantage/reconstruction/tracking.hpp"
 
 namespace vantage::reconstruction::detail {

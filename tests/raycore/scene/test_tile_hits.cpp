@@ -97,7 +97,7 @@ TEST_CASE("tiles are refused for a camera that Embree must not see") {
     scene->first_hits({{8, 8, fx, 100, 4, 4}, Pose::from_translation(centre)}, tiles, hits);
   };
   trace(100, {0, 0, 5});
-  expect_bad_input("camera", "focal lengths 1e-300", [&] { trace(1e-300, {0, 0, 5}); });
+  expect_bad_input("camera", "fx is 1e-300", [&] { trace(1e-300, {0, 0, 5}); });
   expect_bad_input("camera", "centre is [0, 2000000000, 0]", [&] { trace(100, {0, 2e9, 0}); });
   hits.resize(2);
   expect_bad_input("batch", "hits has 2 elements; expected 3", [&] { trace(100, {0, 0, 5}); });

@@ -111,10 +111,10 @@ TEST_CASE("a scene_camera.json that is damaged is refused") {
                       {"invalid or truncated JSON"});
   expect_json_refused("{\"7\": {\"depth_scale\": 1e999}}", "scene_camera.json:1:27", {"1e999"});
   expect_json_refused("{\"7\": 3}", "scene_camera.json: \"7\"", {"found 3", "cam_K"});
-  expect_json_refused("{\"seven\": {}}", "scene_camera.json: \"seven\"", {"no image id"});
-  expect_json_refused("{\"-7\": {}}", "scene_camera.json: \"-7\"", {"no image id"});
+  expect_json_refused("{\"seven\": {}}", "scene_camera.json: \"seven\"", {"not a valid image id"});
+  expect_json_refused("{\"-7\": {}}", "scene_camera.json: \"-7\"", {"not a valid image id"});
   expect_json_refused("{\"99999999999\": {}}", "scene_camera.json: \"99999999999\"",
-                      {"no image id"});
+                      {"not a valid image id"});
 }
 
 TEST_CASE("a duplicate image is refused") {
@@ -131,7 +131,7 @@ TEST_CASE("a million nested arrays are refused before they overflow the stack") 
   expect_json_refused("{\"a\":\n" + std::string(64, '['), "scene_camera.json:2:64",
                       {"deeper than 64"});
   // Brackets in a string are text.
-  expect_json_refused("{\"\\\"" + std::string(100, '[') + "\": 1}", "\"", {"no image id"});
+  expect_json_refused("{\"\\\"" + std::string(100, '[') + "\": 1}", "\"", {"not a valid image id"});
 }
 
 TEST_CASE("an entry without what it needs is refused") {

@@ -104,7 +104,7 @@ TEST_CASE("folders and files make one knowledge base") {
       [&] {
         FileKnowledgeBase({folder.path(), folder.path()});
       },
-      "models_info.json: \"1\"", {"\"obj_000001\"", "taken"});
+      "models_info.json: \"1\"", {"\"obj_000001\"", "already used"});
 }
 
 TEST_CASE("models that are missing or damaged are refused") {
@@ -122,7 +122,7 @@ TEST_CASE("models that are missing or damaged are refused") {
 TEST_CASE("an invalid models_info.json is refused") {
   expect_info_refused("{", "models_info.json:1:2", {"invalid or truncated JSON"});
   expect_info_refused("[1]", "models_info.json", {"found [1]", "one entry per model"});
-  expect_info_refused(R"({"one": {}})", "models_info.json: \"one\"", {"no model id"});
+  expect_info_refused(R"({"one": {}})", "models_info.json: \"one\"", {"not a valid model id"});
   expect_info_refused(R"({"1": {}, "01": {}})", "models_info.json: \"1\"", {"model 1", "twice"});
   expect_info_refused(R"({"1": 5})", "models_info.json: \"1\"", {"found 5", "an object"});
 }

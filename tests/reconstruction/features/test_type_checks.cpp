@@ -24,7 +24,7 @@ TEST_CASE("invalid types are refused") {
       [] {
         MemoryKnowledgeBase({cube_type("a"), cube_type("a")});
       },
-      "a", {"\"a\"", "is taken", "differ"});
+      "a", {"\"a\"", "already used", "unique"});
   expect_refused([] { MemoryKnowledgeBase({{.name = "a"}}); }, "a", {"no mesh"});
   ObjectType nameless = cube_type("");
   nameless.place = "here";
@@ -69,8 +69,8 @@ TEST_CASE("two features that are the same in everything are refused, others with
     ObjectType type = cube_type("a");
     type.features = {one, other};
     CHECK_NOTHROW(MemoryKnowledgeBase({type}));
-    expect_feature_refused({one, other, one}, "tin.features[2]", {"features[0] once more"});
-    expect_feature_refused({one, other, other}, "tin.features[2]", {"features[1] once more"});
+    expect_feature_refused({one, other, one}, "tin.features[2]", {"repeats features[0]"});
+    expect_feature_refused({one, other, other}, "tin.features[2]", {"repeats features[1]"});
   }
   expect_feature_refused(
       {cube_marker(1), marker_feature({"4X4_250", 1, 0.03, Pose::from_translation({0, 0, 0.025})})},

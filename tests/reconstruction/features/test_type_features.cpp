@@ -74,7 +74,7 @@ TEST_CASE("invalid features of other detectors are refused") {
   expect_type_refused("{name: a, " + kCubeShape + ",\n     features: [7]}", at,
                       {"found 7", "an object"});
   expect(key + ", anywhere: true}, {" + key + ", anywhere: true",
-         "types.yaml:2: object_types[0].features[1]", {"color red", "features[0] once more"});
+         "types.yaml:2: object_types[0].features[1]", {"color red", "repeats features[0]"});
 }
 
 TEST_CASE("one marker may be on several types, but under one dictionary's name") {

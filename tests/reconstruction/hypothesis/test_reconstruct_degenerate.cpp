@@ -117,7 +117,7 @@ TEST_CASE("degenerate: a marker that no type has, or with too many points") {
     for (CameraView& view : cell.views) {
       for (Observation& o : view.observations) o.key = marker_key("4X4_250", 99);
     }
-    cell.expect_nothing("no type");
+    cell.expect_nothing("not on any type");
   }
   SUBCASE("points") {
     for (CameraView& view : cell.views) {

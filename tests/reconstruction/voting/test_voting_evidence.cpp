@@ -150,7 +150,7 @@ TEST_CASE("voting: what a type does not carry, where it would have its surface, 
   const Reconstruction without = reconstruct_voting(one, two);
   CHECK(without.objects.empty());
   check_accounts(one, without);
-  check_parts(without.unexplained[0].reason, {"against"});
+  check_parts(without.unexplained[0].reason, {"contradict"});
 }
 
 TEST_CASE(

@@ -40,15 +40,15 @@ struct ReconstructedObject {
   TypePtr type;
   Pose T_world_object;
   std::optional<Matrix6d> covariance = {};  ///< none: the method has no notion of it
-  /// The part of `covariance` that is new in every picture: the noise of the observations. The rest
-  /// (the cameras' poses, prints, calibration) is the same in all pictures of the cameras.
-  std::optional<Matrix6d> noise_covariance = {};
   /// That it is there, of this type, and at this pose rather than at one of the alternatives'.
   double probability = 1;
   double rms_px = 0;                           ///< over the points of all inliers
   std::vector<Support> support = {};           ///< ascending by id
   std::vector<Alternative> alternatives = {};  ///< likeliest first
   std::string warning = {};                    ///< what contradicts it; empty if nothing does
+  /// The part of `covariance` that is new in every picture: the noise of the observations. The rest
+  /// (the cameras' poses, prints, calibration) is the same in all pictures of the cameras.
+  std::optional<Matrix6d> noise_covariance = {};
 };
 
 /// An observation that no object explains.

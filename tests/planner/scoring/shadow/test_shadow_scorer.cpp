@@ -293,8 +293,8 @@ TEST_CASE("the shadow scorer refuses what makes no sense") {
   const PinholeCamera view = test::shadow_view_outside(random, 16, 12);
   const std::vector<Score> needed(1);
   std::vector<ScoreBound> results(1);
-  test::expect_bad_input("views", "depth range is 0.1 to 1.5 m", [&] { scorer.score(view); });
-  test::expect_bad_input("views", "depth range is 0.1 to 1.5 m", [&] { scorer.upper_bound(view); });
+  test::expect_bad_input("views", "depth range 0.1 to 1.5 m", [&] { scorer.score(view); });
+  test::expect_bad_input("views", "depth range 0.1 to 1.5 m", [&] { scorer.upper_bound(view); });
   test::expect_bad_input("views", "0 views, 1 scores needed and 1 results",
                          [&] { scorer.score({}, needed, results); });
 }

@@ -1,4 +1,4 @@
-#include "tracking/presence.hpp"
+#include "reasoning/presence.hpp"
 
 #include <algorithm>
 #include <cmath>
