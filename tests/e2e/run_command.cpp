@@ -33,6 +33,8 @@ namespace {
 bool catches_interrupts(pid_t process) {
   std::ifstream status("/proc/" + std::to_string(process) + "/status");
   for (std::string line; std::getline(status, line);) {
+    // Until it is the command, it has the handlers of this process, or those of the shell.
+    if (line.starts_with("Name:") && !line.ends_with("vantage-command")) return false;
     if (!line.starts_with("SigCgt:")) continue;
     return (std::stoull(line.substr(7), nullptr, 16) >> (SIGINT - 1) & 1) != 0;
   }

@@ -227,7 +227,7 @@ TEST_CASE("Ctrl-C while files are read ends the process at once, and nothing is 
   folder.write("scene/scene_camera.json", numbers + "]}}");
   const auto result = test::interrupt_vantage("plan '" + scene.string() + "'" + test::kSceneArea +
                                                   " -o '" + (folder / "out").string() + "'",
-                                              0.1);
+                                              0);
   CAPTURE(result.err);
   CHECK(result.exit_code == 130);
   CHECK(result.err.find("interrupted") != std::string::npos);

@@ -40,8 +40,8 @@ sequence:
 
 test::CommandResult record(const fs::path& cell, const fs::path& folder,
                            const std::string& options = "") {
-  return run_vantage("simulate" + quoted(cell) + " -o" + quoted(folder) + " --sequence --samples 1 " +
-                     options);
+  return run_vantage("simulate" + quoted(cell) + " -o" + quoted(folder) +
+                     " --sequence --samples 1 " + options);
 }
 
 double true_x(const json& scene_gt, const fs::path& folder, int camera) {

@@ -172,7 +172,7 @@ def cases():
         for name, content in damaged.items():
             yield Case(f"depth {kind}/{name}", PLAN, 3, (f"000000.{kind}",), _only(f"000000.{kind}", content))
     for name, content in ODD_TIFF.items():
-        yield Case("depth tif/" + name, PLAN, (0, 4), ("warning", "no reading"), _only("000000.tif", content))
+        yield Case("depth tif/" + name, PLAN, (0, 4), ("warning", "no valid reading"), _only("000000.tif", content))
     for name, content in READ_TIFF.items():
         yield Case("depth tif/" + name, PLAN, 0, (), _only("000000.tif", content))
     yield Case("depth npy/uint16", PLAN, 0, (), _only("000000.npy", raster.npy("<u2", (H, W), U16)))

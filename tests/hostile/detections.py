@@ -39,7 +39,7 @@ DAMAGED = {
 UNUSED = {"pose far away": (_line(POSE, T_cam_feature={"rotation": {"w": 1, "x": 0, "y": 0, "z": 0},
     "translation_m": [0, 0, 1e300]}), ""), "sigma 1e300": (_line(LABEL, sigma_m=1e300), ""),
     "sigma -1": (_line(LABEL, sigma_m=-1), "sigma_m is -1"), "sigma 0": (_line(LABEL, sigma_m=0), "sigma_m is 0"),
-    "corners turned": (_line(MARKER, corners_px=MARKER["corners_px"][::-1]), "wrong way"),
+    "corners turned": (_line(MARKER, corners_px=MARKER["corners_px"][::-1]), "wrong order"),
     "corners at 1e300": (_line(MARKER, corners_px=[[1e300, 0], [20, 10], [20, 20], [10, 20]]), ""),
     "corners crossed": (_line(MARKER, corners_px=[[10, 10], [20, 20], [20, 10], [10, 20]]), "convex"),
     "corners alike": (_line(MARKER, corners_px=[[10, 10]] * 4), "is the same as"), }

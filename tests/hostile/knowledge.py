@@ -18,7 +18,7 @@ WRONG = [
     ("hierarchy/cube", [], "cube"), (TYPE + "/shape", REMOVED, "shape"), (TYPE + "/shape", {}, "shape"),
     (TYPE + "/mesh", "cube.obj", "mesh"),
     (TYPE + "/shape", {"box": {"size_m": [0, 0, 0]}}, "size_m"),
-    (TYPE + "/shape", {"box": {"size_m": [1e300, 1, 1]}}, "red_cube"),
+    (TYPE + "/shape", {"box": {"size_m": [1e300, 1, 1]}}, "vertex 0"),
     
     (TYPE + "/shape", {"pyramid": {}}, "pyramid"), (TYPE + "/shape",
     {"cup": {"radius_m": 0.01, "height_m": 0.1, "wall_m": 0.02}}, "wall"),
@@ -31,7 +31,7 @@ WRONG = [
     (FEATURE + "/face", REMOVED, "face"), (FEATURE + "/pose", {}, "pose"),
     (TYPE + "/features/1/anywhere", False, "anywhere"), (TYPE + "/features/1/near_m", [[0, 0, 0]], "near_m"),
     (TYPE + "/features/1", {"type": "keypoint", "value": "k", "points_m": []}, "points_m"),
-    (TYPE + "/features/1", base.KNOWLEDGE["object_types"][0]["features"][0], "once more"),
+    (TYPE + "/features/1", base.KNOWLEDGE["object_types"][0]["features"][0], "repeats"),
     (TYPE + "/mas_kg", 1, "mas_kg"),
 ]
 INFO = {"1": {"diameter": 70, "min_x": -25, "min_y": -25, "min_z": -25, "size_x": 50, "size_y": 50, "size_z": 50}}

@@ -50,7 +50,7 @@ TEST_CASE("calibrations belong to images by their order or by their ids") {
     expect_bad_input("calibration", message, [&] { lenses_of(scene, given); });
   };
   refused({files.a, files.b, files.b}, "3 files for 2 images");
-  refused({"7=" + files.a}, "image 3 has none");
+  refused({"7=" + files.a}, "image 3 has no calibration");
   refused({"7=" + files.a, files.b}, "has no image id in front");
   refused({"7=" + files.a, "7=" + files.b}, "image 7 has two");
 }

@@ -180,7 +180,7 @@ TEST_CASE("a workcell that is missing or no YAML is refused") {
 TEST_CASE("a workcell's keys are checked against the schema") {
   TemporaryFolder folder;
   expect_refused([&] { load(folder, "voxel_size_m: 0.01\n"); }, "cell.yaml:1: work_area",
-                 {"missing", "the box in which vantage looks"});
+                 {"missing", "the box in which to look"});
   expect_text_refused("voxel_size: 0.01\n", "cell.yaml:2: voxel_size",
                       {"unknown key", "\"voxel_size_m\""});
   expect_text_refused("voxel_size_m: 0\n", "cell.yaml:2: voxel_size_m",
