@@ -85,7 +85,7 @@ std::optional<Eigen::Vector2d> draw_object(OverlaySheet& sheet, const KnownObjec
 
 void tag_object(OverlaySheet& sheet, const KnownObject& object, const Eigen::Vector2d& top,
                 const Ink& ink) {
-  const bool sure = object.probability > 0.995;
+  const bool sure = object.probability > 0.985;
   sheet.canvas.tag(
       top, sure ? object.name : fmt::format("{} {:.2f}?", object.name, object.probability), ink);
 }

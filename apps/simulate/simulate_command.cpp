@@ -132,8 +132,7 @@ void read_delay(const std::string& text, std::map<std::string, double>& delays_s
 
 /// What the workcell says, and the command line's options on top; nothing for a single instant.
 std::optional<SequenceSettings> sequence_of(const SimulateOptions& a, const Workcell& workcell) {
-  const bool asked =
-      a.sequence || !a.given_sequence.empty() || !a.delays.empty() || a.no_arm;
+  const bool asked = a.sequence || !a.given_sequence.empty() || !a.delays.empty() || a.no_arm;
   if (!asked) return {};
   SequenceSettings settings = workcell.sequence.value_or(SequenceSettings{});
   FieldGroup group = fields_of(settings.random);

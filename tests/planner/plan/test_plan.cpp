@@ -250,8 +250,7 @@ TEST_CASE("planning refuses a request that makes no sense") {
                          [&] { plan_next_view(wall_world(), request); });
   request = small_request();
   request.method = MeshMethod{.enlarge = 0.5};
-  test::expect_bad_input("mesh", "scaled by 0.5",
-                         [&] { plan_next_view(wall_world(), request); });
+  test::expect_bad_input("mesh", "scaled by 0.5", [&] { plan_next_view(wall_world(), request); });
   request = small_request();
   request.volume.noise.baseline_m = 0;  // also of a work area that is classified already
   const auto classified = plan_next_view(wall_world(), small_request()).classified;
