@@ -134,7 +134,8 @@ VANTAGE_API std::vector<KnownObject> known_objects(const TrackedScene& scene);
 /// Not thread-safe; deterministic, the same bits at any number of threads.
 class VANTAGE_API ObjectTracker {
  public:
-  /// @param solids static structures and the board's plate: what hides objects, beside objects.
+  /// @param scene what hides objects, beside objects: static structures and the board's plate; and
+  /// what its `seen_points` say to be visible in every snapshot.
   /// @throws Error bad_input, "options" as the place, for options that are not finite, negative, or
   /// without sense.
   ObjectTracker(std::shared_ptr<const KnowledgeBase> knowledge, SceneKnowledge scene,
