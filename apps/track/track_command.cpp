@@ -21,6 +21,7 @@
 #include "track/track_options.hpp"
 #include "track/tracked_cameras.hpp"
 #include "vantage/raycore/detail/file.hpp"
+#include "vantage/raycore/error.hpp"
 #include "vantage/raycore/image_io.hpp"
 #include "version.hpp"
 
@@ -81,6 +82,12 @@ class SequenceRun {
  private:
   void track(const SequenceInstant& instant) {
     const BopScene scene = load_dataset(instant.folder, workcell_, instant.images, how_.observe);
+    if (images_ == 0) images_ = scene.images.size();
+    if (scene.images.size() != images_) {
+      throw bad_input(instant.folder.string(),
+                      fmt::format("found {} images; expected {}, one by each camera, as before",
+                                  scene.images.size(), images_));
+    }
     SceneReconstruction seen{observe(scene, workcell_, how_.observe, run_.stop()), {}, 0};
     if (run_.cancelled()) return;
     for (const std::string& warning : cameras_.apply(scene, seen.observed)) {
@@ -135,6 +142,7 @@ class SequenceRun {
   Workcell workcell_;
   TrackOptions options_;
   TrackedCameras cameras_;
+  std::size_t images_ = 0;  // of each instant
   std::unique_ptr<ObjectTracker> tracker_;
   Json instants_ = Json::array(), events_ = Json::array();
   std::vector<fs::path> files_ = workcell_.files;

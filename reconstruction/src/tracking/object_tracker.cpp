@@ -69,6 +69,7 @@ struct ObjectTracker::Impl {
   History history;
   FeatureFilter features;
   std::optional<double> time_s = {};
+  std::size_t views = 0;  ///< of each snapshot
   std::map<TrackId, bool> disagrees = {};
 
   Reconstruction reconstruct(const Snapshot& snapshot, const StopToken& stop) const {
@@ -88,6 +89,7 @@ struct ObjectTracker::Impl {
         {snapshot.time_s, step_s, !time_s, snapshot.views, detections, &presence, &history});
     history.add(snapshot.time_s, snapshot.views, snapshot.depth, solid);
     time_s = snapshot.time_s;
+    views = snapshot.views.size();
     for (const Track& track : tracks.tracks()) {
       if (!track.confirmed()) continue;
       warn_of_views(track, result);
@@ -164,6 +166,12 @@ TrackedScene ObjectTracker::update(const Snapshot& snapshot, Reconstruction reco
   if (!std::isfinite(snapshot.time_s) || (impl_->time_s && snapshot.time_s <= *impl_->time_s)) {
     throw bad_input("snapshot", fmt::format("found time_s = {}; expected a time after {} s",
                                             snapshot.time_s, impl_->time_s.value_or(-INFINITY)));
+  }
+  if (impl_->time_s && snapshot.views.size() != impl_->views) {
+    throw bad_input("snapshot",
+                    fmt::format("found {} views; expected {}, as before; leave the pose "
+                                "of a camera empty that took no picture",
+                                snapshot.views.size(), impl_->views));
   }
   if (reconstruction.stopped != StopReason::none) {
     return {snapshot.time_s, {}, {}, std::move(reconstruction)};

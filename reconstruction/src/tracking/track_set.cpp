@@ -15,7 +15,6 @@ constexpr double kRefutedLog = 4;     ///< lost where depth shows that nothing i
 constexpr double kMaxMisses = 2.5;    ///< of a candidate, before it is dropped
 constexpr double kWatched_m = 0.1;    ///< steps by which an object can be followed
 constexpr int kStart = 5;             ///< snapshots; what comes into sight in them was there
-constexpr int kTilted = 5;            ///< snapshots that a single marker takes to be believed
 constexpr double kContact_m = 0.004;  ///< objects that touch do not stand inside each other
 
 double log_odds_of(double probability) {
@@ -107,14 +106,6 @@ void TrackSet::take_in(const SnapshotEvidence& evidence) {
   }
 }
 
-/// One marker may be taken for tilted the wrong way again and again.
-int TrackSet::confirmations(const Track& track) const {
-  const Place& seen = *track.elsewhere;
-  const double step_m = track.place.filter.innovation({seen.filter.pose()}).head<3>().norm();
-  const bool may_be_tilted = seen.features < 2 && step_m < kSamePlace * radius_of(*track.type);
-  return may_be_tilted ? std::max(kTilted, options_.confirmations) : options_.confirmations;
-}
-
 void TrackSet::see(Track& track, const Detection& detection, const TrackCost& cost,
                    const SnapshotEvidence& evidence) {
   const DetectedPose& detected = detection.poses[cost.pose];
@@ -178,8 +169,9 @@ void TrackSet::depart(Track& track) {
   if (track.settled) {
     const double step_m =
         track.place.filter.innovation({track.elsewhere->filter.pose()}).head<3>().norm();
-    track.departed = Departure{track.place.filter.pose(), track.place.seen_s,
-                               step_m<kWatched_m, track.gone, track.place.features> 1};
+    const bool watched = step_m < kWatched_m, was_sure = track.place.features >= 2;
+    track.departed =
+        Departure{track.place.filter.pose(), track.place.seen_s, watched, track.gone, was_sure};
     if (!refuted && track.hidden) track.left = Doubt{track.place, track.streaks};
   }
   track.place = std::move(*track.elsewhere);

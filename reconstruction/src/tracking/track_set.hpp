@@ -42,7 +42,6 @@ class TrackSet {
   void take_in(const SnapshotEvidence& evidence);
   void see(Track& track, const Detection& detection, const TrackCost& cost,
            const SnapshotEvidence& evidence);
-  int confirmations(const Track& track) const;
   void see_elsewhere(Track& track, Place seen, bool in_time);
   void miss(Track& track, const Expected& expected, const SnapshotEvidence& evidence);
   void depart(Track& track);

@@ -208,6 +208,9 @@ TEST_CASE("tracking: times that do not grow, and options without sense, are refu
   watch(scene, tracker, 2);
   scene.time_s -= 0.2;
   expect_bad_input("snapshot", "expected a time after", [&] { scene.see(tracker); });
+  scene.time_s += 1;
+  scene.cameras.pop_back();
+  expect_bad_input("snapshot", "found 2 views; expected 3", [&] { scene.see(tracker); });
   TrackOptions options;
   options.confirmations = 0;
   expect_bad_input("options", "expected", [&] { scene.tracker(options); });

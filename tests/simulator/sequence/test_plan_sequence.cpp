@@ -21,7 +21,7 @@ SequenceSettings planned_events() {
   return settings;
 }
 
-void check_refused(const SequenceSettings& settings, const char* place, const char* message) {
+void expect_plan_refused(const SequenceSettings& settings, const char* place, const char* message) {
   expect_error(ErrorCode::bad_input, place, message,
                [&] { plan_sequence(six_cubes(), settings, 1); });
 }
@@ -55,28 +55,28 @@ TEST_CASE("cameras out of step are named, others are in step") {
   CHECK(plan.delay_s(0) == 0);
   CHECK(plan.delay_s(1) == 0.03);
   settings.delays_s = {{"above", 0.03}};
-  check_refused(settings, "delays_s", "above");
+  expect_plan_refused(settings, "delays_s", "above");
 }
 
 TEST_CASE("events that cannot happen are refused with their place") {
   SequenceSettings settings = planned_events();
   settings.moved[0].object = "green 1";
-  check_refused(settings, "move 1", "green 1");
+  expect_plan_refused(settings, "move 1", "green 1");
   settings = planned_events();
   settings.moved[0].from_s = 1.25;  // while it is carried
-  check_refused(settings, "move 1", "red 1");
+  expect_plan_refused(settings, "move 1", "red 1");
   settings = planned_events();
   settings.moved[0].to_s = 2.0;
-  check_refused(settings, "move 1", "ends after it begins");
+  expect_plan_refused(settings, "move 1", "ends after it begins");
   settings = planned_events();
   settings.taken_away[0].at_s = 0.5;  // before it is there
-  check_refused(settings, "take 1", "late");
+  expect_plan_refused(settings, "take 1", "late");
   settings = planned_events();
   settings.added[0].name = "red 1";
-  check_refused(settings, "add 1", "red 1");
+  expect_plan_refused(settings, "add 1", "red 1");
   settings = planned_events();
   settings.random.moves = 2;
-  check_refused(settings, "sequence", "random");
+  expect_plan_refused(settings, "sequence", "random");
 }
 
 }  // namespace vantage::test

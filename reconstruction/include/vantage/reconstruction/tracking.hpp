@@ -146,8 +146,8 @@ class VANTAGE_API ObjectTracker {
 
   /// Runs in the caller's task arena. A reconstruction that `stop` ended is no evidence: the result
   /// then has no objects, and the tracker is as before.
-  /// @throws Error bad_input, "snapshot" as the place, for a time that is not after the last one's;
-  /// and as `reconstruct_pnp` does. The tracker is then as before.
+  /// @throws Error bad_input, "snapshot" as the place, for a time that is not after the last one's,
+  /// for another number of views; and as `reconstruct_pnp` does. The tracker is then as before.
   TrackedScene update(const Snapshot& snapshot, const StopToken& stop = {});
 
   /// The same with a reconstruction of the snapshot that is there already, by any method. Filter
