@@ -4,7 +4,8 @@
 #
 #   apps/setup.sh [--test] [--bench] [--docs] [--dev]
 #
-#   --test    also what tests/ needs beyond that: an independent reader of what vantage writes
+#   --test    also what tests/ needs beyond that: an independent reader of what vantage writes, and
+#             the compiler of the sanitizers
 #   --bench   also what tests/bench needs
 #   --docs    also what docs/build.sh needs
 #   --dev     also the formatter and the linters
@@ -21,7 +22,7 @@ packages=(
 )
 for option in "$@"; do
   case $option in
-    --test) packages+=(python3-openvdb python3-numpy python3-pil) ;;
+    --test) packages+=(python3-openvdb python3-numpy python3-pil clang libclang-rt-dev) ;;
     --bench) packages+=(libbenchmark-dev libcgal-dev) ;;
     --docs) packages+=(doxygen graphviz python3-sphinx python3-breathe python3-myst-parser furo) ;;
     --dev) packages+=(clang-format clang-tidy shellcheck) ;;

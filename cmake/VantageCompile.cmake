@@ -35,11 +35,13 @@ target_compile_options(vantage_options INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual
   $<$<BOOL:${VANTAGE_WERROR}>:-Werror>)
 if(VANTAGE_SANITIZE)
+  target_compile_definitions(vantage_options INTERFACE VANTAGE_SANITIZED=1)
   # Half of all compiling would be for checks of each address that the hardware and the address
   # sanitizer make, too: that it is not null, aligned, within its object and its space.
   target_compile_options(vantage_options INTERFACE
     -fsanitize=${VANTAGE_SANITIZE} -fno-omit-frame-pointer
-    -fno-sanitize=null,alignment,object-size,pointer-overflow
+    -fno-sanitize=null,alignment,pointer-overflow
+    $<$<CXX_COMPILER_ID:GNU>:-fno-sanitize=object-size>  # Clang has none without optimisation
     -g1)  # reports show lines and nothing else
   target_link_options(vantage_options INTERFACE -fsanitize=${VANTAGE_SANITIZE})
 endif()
@@ -48,6 +50,12 @@ endif()
 option(VANTAGE_LIBFUZZER "Build the fuzz targets with clang's libFuzzer" OFF)
 if(VANTAGE_LIBFUZZER)
   target_compile_options(vantage_options INTERFACE -fsanitize=fuzzer-no-link)
+endif()
+
+# Clang's precompiled headers are otherwise new to ccache each time.
+if(CMAKE_CXX_COMPILER_ID STREQUAL "Clang")
+  target_compile_options(vantage_options INTERFACE "SHELL:-Xclang -fno-pch-timestamp"
+    -Wno-bitwise-instead-of-logical -Wno-bitwise-conditional-parentheses)  # without branches: lanes
 endif()
 
 # What turns a slip in memory into an end instead of an exploit.
@@ -79,8 +87,10 @@ function(vantage_compile_together target)
   set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${arg_BATCH})
   # Sources that are included by another file are no headers. And where much is inlined, GCC 12 sees
   # things in std::string's operator+ that are not there (its bugs 105329 and 105651).
-  target_compile_options(${target} PRIVATE
-    -Wno-subobject-linkage -Wno-array-bounds -Wno-restrict -Wno-stringop-overflow)
+  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    target_compile_options(${target} PRIVATE
+      -Wno-subobject-linkage -Wno-array-bounds -Wno-restrict -Wno-stringop-overflow)
+  endif()
   if(arg_LIKE)
     target_precompile_headers(${target} REUSE_FROM ${arg_LIKE})
   elseif(arg_HEADERS)

@@ -26,9 +26,11 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 constexpr const char* kImportRecord = "import.json";
+constexpr const char* kUnfinishedFolder = ".unfinished_import";
 
-/// The folder while the dataset is being written. Unless it is finished, nothing of it stays: half
-/// a dataset looks like a whole one, and would be in the way of the next import.
+/// What an import writes, while it is being written: it lies in a folder of its own within the
+/// dataset's until all is there. Half a dataset looks like a whole one, and an import that fails
+/// must not take the earlier one with it.
 class UnfinishedDataset {
  public:
   explicit UnfinishedDataset(const fs::path& folder);
@@ -36,55 +38,69 @@ class UnfinishedDataset {
   UnfinishedDataset(const UnfinishedDataset&) = delete;
   UnfinishedDataset& operator=(const UnfinishedDataset&) = delete;
 
-  void finish() { finished_ = true; }
+  const fs::path& parts() const { return parts_; }
+
+  /// Puts what was written in the place of an earlier import's.
+  void finish();
 
  private:
   void refuse_foreign() const;
-  void remove_parts() const;
+  void remove_earlier_import() const;
 
-  fs::path folder_;
+  fs::path folder_, parts_;
   bool was_there_;
-  bool finished_ = false;
 };
 
 /// Refuses to mix a dataset with other files.
 void UnfinishedDataset::refuse_foreign() const {
-  const fs::path& folder = folder_;
-  if (fs::exists(folder) && !fs::is_directory(folder)) {
-    throw bad_input(folder.string(), "a file has this name; name a folder for the dataset");
+  if (fs::exists(folder_) && !fs::is_directory(folder_)) {
+    throw bad_input(folder_.string(), "a file has this name; name a folder for the dataset");
   }
-  if (fs::is_directory(folder) && !fs::is_empty(folder) &&
-      !fs::is_regular_file(folder / kImportRecord)) {
-    throw bad_input(folder.string(),
+  if (!was_there_ || fs::is_regular_file(folder_ / kImportRecord)) return;
+  for (const auto& entry : fs::directory_iterator(folder_)) {
+    if (entry.path() == parts_) continue;  // of an import that was killed
+    throw bad_input(folder_.string(),
                     "the folder is not empty, and its files were not written by an import; name "
                     "another one, so that nothing is lost");
   }
 }
 
-/// All that an import writes, of this time or of an earlier one.
-void UnfinishedDataset::remove_parts() const {
-  std::error_code ignored;
-  for (const char* name : {"rgb", "depth", "scene_camera.json"}) {
-    fs::remove_all(folder_ / name, ignored);
+void UnfinishedDataset::remove_earlier_import() const {
+  for (const char* name : {"rgb", "depth", "scene_camera.json", kImportRecord}) {
+    fs::remove_all(folder_ / name);
   }
-  for (const auto& entry : fs::directory_iterator(folder_, ignored)) {
+  std::vector<fs::path> calibrations;
+  for (const auto& entry : fs::directory_iterator(folder_)) {
     const std::string name = entry.path().filename().string();
-    if (name.starts_with("calibration") && name.ends_with(".yml")) fs::remove(entry, ignored);
+    if (name.starts_with("calibration") && name.ends_with(".yml")) {
+      calibrations.push_back(entry.path());
+    }
   }
-  fs::remove(folder_ / kImportRecord, ignored);
+  for (const fs::path& file : calibrations) fs::remove(file);
 }
 
 UnfinishedDataset::UnfinishedDataset(const fs::path& folder)
-    : folder_(folder), was_there_(fs::exists(folder)) {
+    : folder_(folder), parts_(folder / kUnfinishedFolder), was_there_(fs::exists(folder)) {
   refuse_foreign();
-  remove_parts();
-  for (const char* name : {"rgb", "depth"}) fs::create_directories(folder / name);
+  fs::remove_all(parts_);
+  for (const char* name : {"rgb", "depth"}) fs::create_directories(parts_ / name);
+}
+
+void UnfinishedDataset::finish() {
+  remove_earlier_import();
+  std::vector<fs::path> written;
+  for (const auto& entry : fs::directory_iterator(parts_)) written.push_back(entry.path());
+  // The record comes last: a folder that has it is whole.
+  std::partition(written.begin(), written.end(),
+                 [](const fs::path& part) { return part.filename() != kImportRecord; });
+  for (const fs::path& part : written) fs::rename(part, folder_ / part.filename());
+  fs::remove(parts_);
+  was_there_ = true;
 }
 
 UnfinishedDataset::~UnfinishedDataset() {
-  if (finished_) return;
-  remove_parts();
   std::error_code ignored;
+  fs::remove_all(parts_, ignored);
   if (!was_there_) fs::remove(folder_, ignored);
 }
 
@@ -157,9 +173,10 @@ Json entry_of(const ImportedImage& image, double depth_scale_mm) {
   return entry;
 }
 
-/// One file where all lenses are alike, else one for each image. @returns the option to give.
+/// Writes to `parts` one file where all lenses are alike, else one for each image. @returns the
+/// option to give once they are in `folder`.
 std::string write_lenses(const ImportedDataset& dataset, const std::vector<int>& ids,
-                         const BopScene& scene, const fs::path& folder) {
+                         const BopScene& scene, const fs::path& parts, const fs::path& folder) {
   const auto& first = dataset.images[std::size_t(ids.front())];
   bool distorted = false, alike = true;
   for (const int id : ids) {
@@ -170,13 +187,13 @@ std::string write_lenses(const ImportedDataset& dataset, const std::vector<int>&
   if (!distorted) return {};
   std::string option;
   for (std::size_t i = 0; i < ids.size(); ++i) {
-    const fs::path file =
-        folder / (alike ? "calibration.yml" : fmt::format("calibration_{:06d}.yml", ids[i]));
+    const std::string name =
+        alike ? "calibration.yml" : fmt::format("calibration_{:06d}.yml", ids[i]);
+    const std::string file = (folder / name).string();
     const Lens lens(scene.images[i].intrinsics, dataset.images[std::size_t(ids[i])].distortion,
                     dataset.images[std::size_t(ids[i])].name);
-    write_file(file, calibration_yaml(lens));
-    option += alike ? file.string()
-                    : fmt::format("{}{}={}", option.empty() ? "" : ",", ids[i], file.string());
+    write_file(parts / name, calibration_yaml(lens));
+    option += alike ? file : fmt::format("{}{}={}", option.empty() ? "" : ",", ids[i], file);
     if (alike) break;
   }
   return option;
@@ -236,14 +253,15 @@ Json write_imported(ImportedDataset& dataset, const ImportChoice& choice, const 
                     "has no depth image, but other images do; choose those with --images");
   }
   UnfinishedDataset unfinished(folder);
+  const fs::path& parts = unfinished.parts();
   Json cameras = Json::object();
   stop.expect(ids.size());
   for (const int id : ids) {
     if (stop.stop_requested()) throw Error(ErrorCode::cancelled, "import", "interrupted");
     const ImportedImage& image = dataset.images[std::size_t(id)];
     check_pose(image);
-    if (!image.color.empty()) copy_image(image.color, image, folder / "rgb", id);
-    if (!image.depth.empty()) copy_image(image.depth, image, folder / "depth", id);
+    if (!image.color.empty()) copy_image(image.color, image, parts / "rgb", id);
+    if (!image.depth.empty()) copy_image(image.depth, image, parts / "depth", id);
     cameras[std::to_string(id)] = entry_of(image, depth_scale_mm);
     const Intrinsics& k = image.intrinsics;
     if (image.color.empty() && image.depth.empty() && k.width > 0) {
@@ -253,19 +271,19 @@ Json write_imported(ImportedDataset& dataset, const ImportChoice& choice, const 
     stop.advance(1);
   }
   for (const char* name : {"rgb", "depth"}) {
-    if (fs::is_empty(folder / name)) fs::remove(folder / name);
+    if (fs::is_empty(parts / name)) fs::remove(parts / name);
   }
-  write_file(folder / "scene_camera.json", cameras.dump(1) + "\n");
-  const BopScene scene = read_back(ids, folder, dataset, stop);
+  write_file(parts / "scene_camera.json", cameras.dump(1) + "\n");
+  const BopScene scene = read_back(ids, parts, dataset, stop);
   dataset.warnings.insert(dataset.warnings.end(), scene.warnings.begin(), scene.warnings.end());
   Json record{{"vantage", kVersion},
               {"format", dataset.format},
               {"images", ids},
               {"depth", all_depth},
               {"depth_scale_mm", depth_scale_mm},
-              {"calibration", write_lenses(dataset, ids, scene, folder)},
+              {"calibration", write_lenses(dataset, ids, scene, parts, folder)},
               {"warnings", dataset.warnings}};
-  write_file(folder / kImportRecord, record.dump(1) + "\n");
+  write_file(parts / kImportRecord, record.dump(1) + "\n");
   unfinished.finish();
   return record;
 }

@@ -30,8 +30,7 @@ void add_from_files(const BopScene& scene, ObservedScene& observed,
   const ReadingPhase reading;
   for (const fs::path& file : files) {
     for (auto& [id, seen] : read_observations(file)) {
-      const auto image = std::find_if(scene.images.begin(), scene.images.end(),
-                                      [&](const BopImage& i) { return i.id == id; });
+      const auto image = std::ranges::find(scene.images, id, &BopImage::id);
       if (image == scene.images.end()) {
         throw bad_input(file.string(), fmt::format("there are observations of image {}, but the "
                                                    "dataset has no such image",

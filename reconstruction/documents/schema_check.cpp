@@ -1,6 +1,8 @@
 // GCC 12 warns of an overlap in std::string::replace that does not exist (GCC bug 105329), here in
 // valijson.
+#ifndef __clang__
 #pragma GCC diagnostic ignored "-Wrestrict"
+#endif
 
 #include "documents/schema_check.hpp"
 

@@ -7,7 +7,7 @@
 namespace vantage::test {
 
 /// The sanitizers take ten times as long, and look for other things than wrong results.
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#ifdef VANTAGE_SANITIZED  // by CMake: compilers have each their own word for it
 inline constexpr bool kAllScenes = false;
 #else
 inline constexpr bool kAllScenes = true;

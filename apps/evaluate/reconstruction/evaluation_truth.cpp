@@ -56,12 +56,12 @@ Pose model_to_camera(const Value& entry) {
 class SceneObjects {
  public:
   void add(const TypePtr& type, const Pose& T_world_object) {
-    auto [model, is_new] = models_.try_emplace(type->name);
-    if (is_new) model->second = error_model(*type->mesh, type->symmetries);
-    const double near_m = kSameObject * model->second.diameter_m;
+    const auto [entry, is_new] = models_.try_emplace(type->name);
+    auto& model = entry->second;
+    if (is_new) model = error_model(*type->mesh, type->symmetries);
+    const double near_m = kSameObject * model.diameter_m;
     const bool known = std::ranges::any_of(objects_, [&](const TrueObject& object) {
-      return object.type == type &&
-             mssd_m(model->second, T_world_object, object.T_world_object) < near_m;
+      return object.type == type && mssd_m(model, T_world_object, object.T_world_object) < near_m;
     });
     if (known) return;
     const std::string name = fmt::format("{} {}", type->name, ++counts_[type->name]);

@@ -15,7 +15,7 @@ using Eigen::Vector3d;
 
 /// Separating axes: the box's three, the triangle's normal, the nine cross products of edges.
 bool apart(const Vector3d& half, const TriangleCorners& corners) {
-  const auto& [a, b, c] = corners;
+  const Vector3d &a = corners[0], &b = corners[1], &c = corners[2];
   const auto separates = [&](const Vector3d& axis) {
     const double pa = axis.dot(a), pb = axis.dot(b), pc = axis.dot(c);
     const double reach = axis.cwiseAbs().dot(half) * (1 + 1e-12);

@@ -51,11 +51,11 @@ RawDepth decode_depth(const std::filesystem::path& file) {
 
 void check_depth_size(std::int64_t width, std::int64_t height, std::size_t bytes,
                       const std::string& where) {
-  constexpr std::int64_t kMaxSide = 16384;
+  constexpr std::int64_t kMaxSide_px = 16384;
   constexpr double kMaxPacked = 2000;  // pixels in a byte: more than any of the packers gets to
-  if (width < 1 || height < 1 || width > kMaxSide || height > kMaxSide) {
+  if (width < 1 || height < 1 || width > kMaxSide_px || height > kMaxSide_px) {
     throw bad_input(where, fmt::format("{} x {} pixels; expected 1 to {} along each side", width,
-                                       height, kMaxSide));
+                                       height, kMaxSide_px));
   }
   if (double(width) * double(height) > kMaxPacked * double(bytes)) {
     throw bad_input(where, fmt::format("states {} x {} pixels, more than {} bytes can hold; it is "

@@ -35,7 +35,9 @@ TEST_CASE("every shape of the schema makes its solid") {
       {"duck: {length_m: 0.1}", {0.1, 0, 0}},
       {"mesh: {file: tri.stl, unit_m: 0.001}", {1, 1, 0}}};
   CHECK(shapes.size() == knowledge_schema()["definitions"]["shape"]["properties"].size());
-  for (const auto& [shape, size_m] : shapes) {
+  for (const auto& entry : shapes) {
+    const auto& shape = entry.first;
+    const auto& size_m = entry.second;
     CAPTURE(shape);
     const FileKnowledgeBase base(
         {folder.write("types.yaml", "object_types: [{name: a, shape: {" + shape + "}}]\n")});

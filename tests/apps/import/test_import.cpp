@@ -230,7 +230,19 @@ TEST_CASE("images are chosen by number, and nothing of somebody else's is overwr
   CHECK(read_text(folder / "mine/notes.txt") == "mine");
   fs::remove(folder / "tum/depth/1.013.png");
   expect_bad_input("1.013.png", "missing", [&] { imported(dataset, folder); });
-  CHECK(fs::is_empty(folder / "dataset"));
+  // The earlier import is there as it was.
+  CHECK(load_bop_scene(folder / "dataset").images.size() == 1);
+  CHECK(fs::is_regular_file(folder / "dataset/import.json"));
+}
+
+TEST_CASE("an import takes the place of an earlier one, and of one that was killed") {
+  const TemporaryFolder folder;
+  ImportedDataset dataset = read_tum(tum_folder(folder), Lens(kImportIntrinsics, {}));
+  folder.write("dataset/.unfinished_import/depth/000000.png", "half a pic");
+  CHECK(imported(dataset, folder).images.size() == 2);
+  CHECK(imported(dataset, folder, {.every = 2}).images.size() == 1);
+  CHECK_FALSE(fs::exists(folder / "dataset/.unfinished_import"));
+  CHECK_FALSE(fs::exists(folder / "dataset/depth/000001.png"));
 }
 
 TEST_CASE("an import that fails or is interrupted leaves nothing, and can be done again") {

@@ -33,9 +33,10 @@ void expect_text_refused(const std::string& text, std::string_view where,
 
 TEST_CASE("the example has every key of the schema") {
   const nlohmann::json root = read_yaml(shipped_workcell("example")).root;
-  for (const auto& [key, schema] : workcell_schema()["properties"].items()) {
-    CAPTURE(key);
-    CHECK(root.contains(key));
+  const nlohmann::json schema = workcell_schema();
+  for (const auto& property : schema["properties"].items()) {
+    CAPTURE(property.key());
+    CHECK(root.contains(property.key()));
   }
 }
 

@@ -88,7 +88,9 @@ TEST_CASE("explanations come in the order asked for, and end when stopped") {
 }
 
 TEST_CASE("what cannot be explained is refused, before anything is") {
-  const auto [world, plan] = planned(VoxelMethod{});
+  const auto made = planned(VoxelMethod{});
+  const auto& world = made.first;
+  const auto& plan = made.second;
   test::expect_bad_input("explain", "found candidate 12; expected 0 to 11", [&] {
     (void)explain_views(world, plan, std::array{0, 12});
   });

@@ -162,7 +162,7 @@ TEST_CASE("what a decoder's process sends arrives, from any thread") {
   }
 }
 
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#ifndef VANTAGE_SANITIZED
 TEST_CASE("a decoder's process gets no more memory than its limit") {
   ChildProcess child({5, 10, 64 << 20}, "test", [](int pipe) {
     const std::vector<std::uint8_t> bytes(std::size_t(200) << 20, 1);

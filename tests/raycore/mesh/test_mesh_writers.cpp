@@ -157,7 +157,7 @@ TEST_CASE("every mesh is a named node below the one that turns the world") {
   CHECK(nodes.at(1).at("name") == "a");
   CHECK(nodes.at(2).at("name") == "b");
   CHECK(nodes.at(2).at("mesh") == 1);
-  CHECK(glb.json.at("scenes").at(0).at("nodes") == nlohmann::json({0}));
+  CHECK(glb.json.at("scenes").at(0).at("nodes") == nlohmann::json::array({0}));
 }
 
 TEST_CASE("a scene without triangles is a valid file") {

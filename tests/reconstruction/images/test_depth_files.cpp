@@ -83,13 +83,14 @@ TEST_CASE("depth is read from TIFF of 16 and 32 bits, OpenEXR and NumPy's arrays
   const std::string counts = raw(std::vector<std::uint16_t>(48, 2000));
   const std::string floats = raw(std::vector<float>(48, 2000.0f));
   const std::string doubles = raw(std::vector<double>(48, 2000.0));
-  for (const auto& [ending, bytes] : std::vector<std::pair<std::string, std::string>>{
+  for (const auto& file : std::vector<std::pair<std::string, std::string>>{
            {".tif", encoded(".tif", cv::Mat(6, 8, CV_16U, cv::Scalar(2000)))},
            {".TIFF", encoded(".tif", cv::Mat(6, 8, CV_32F, cv::Scalar(2000)))},
            {".tif", tiff_of_32_bits(2000)},
            {".npy", npy("<u2", "6, 8", counts)},
            {".npy", npy("<f4", "6, 8", floats)},
            {".npy", npy("<f8", "6, 8, 1", doubles)}}) {
+    const std::string &ending = file.first, &bytes = file.second;
     CAPTURE(ending);
     const auto depth = depth_in(ending, bytes);
     REQUIRE(depth);

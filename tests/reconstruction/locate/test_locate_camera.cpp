@@ -83,7 +83,7 @@ TEST_CASE("more markers make the error smaller") {
 
 TEST_CASE("three misread or moved markers in ten are found") {
   Random random(14);
-  for (std::uint32_t scene = 0; scene < scene_count(60); ++scene) {
+  for (std::uint32_t scene = 0; scene < scene_count(24); ++scene) {
     CAPTURE(scene);
     SeenBoard board = scene % 2 ? scattered(10, random) : SeenBoard::grid(5, 2, 0.04, 0.06);
     board.look(some_lenses()[1], camera_above(0.8, random.uniform(0.3, 0.7), random), 0.2, random);

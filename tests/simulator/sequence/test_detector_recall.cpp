@@ -73,7 +73,8 @@ TEST_CASE("the detector finds as many markers as the table says" * doctest::test
   const struct {
     double side_px, angle_deg;
   } cells[] = {{9, 0}, {11, 20}, {13, 40}, {15, 60}, {18, 65}, {22, 72}, {28, 50}, {40, 78}};
-  for (const auto& [side_px, angle_deg] : cells) {
+  for (const auto& cell : cells) {
+    const double side_px = cell.side_px, angle_deg = cell.angle_deg;
     CAPTURE(side_px);
     CAPTURE(angle_deg);
     const double recall = detector_recall(side_px, angle_deg * kDegree);

@@ -165,7 +165,6 @@ TEST_CASE("carving is asking, with lattices far wider than any image") {
 
 TEST_CASE("carving a far away work area loses no precision") {
   Random random(5);
-  CarveTally tally;
   const Eigen::Vector3d away(1000, -2000, 500);
   for (std::uint32_t seed = 0; seed < test::scene_count(6); ++seed) {
     const WorldModel world = without_cameras(test::random_workcell(seed));

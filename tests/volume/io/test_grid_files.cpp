@@ -130,7 +130,9 @@ TEST_CASE("grid.vdb holds the states, as numbers and as sets, and stays sparse")
   CHECK(wrong == 0);
   CHECK(states->tree().activeTileCount() > 0);
   CHECK(read_grid<openvdb::BoolGrid>(file, "shadow")->tree().activeTileCount() > 0);
-  for (const auto& [name, holds] : sets) {
+  for (const auto& set_of : sets) {
+    const auto& name = set_of.first;
+    const auto& holds = set_of.second;
     CAPTURE(name);
     const auto set = read_grid<openvdb::BoolGrid>(file, name);
     CHECK_FALSE(set->background());
@@ -157,7 +159,9 @@ TEST_CASE("files that cannot be written, in a missing folder or on a full disk")
       {"labels.npy", [&](const fs::path& p) { write_labels_npy(p, *grid); }},
       {"regions.npy", [&](const fs::path& p) { write_regions_npy(p, regions); }}};
   const TemporaryFolder folder;
-  for (const auto& [name, write] : writers) {
+  for (const auto& writer : writers) {
+    const auto& name = writer.first;
+    const auto& write = writer.second;
     CAPTURE(name);
     test::expect_bad_input(name, "does not exist", [&] { write(folder / "missing" / name); });
     const FileSizeLimit limit(1000);

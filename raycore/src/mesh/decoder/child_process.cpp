@@ -21,13 +21,6 @@
 #include "vantage/raycore/error.hpp"
 
 // The sanitizers map terabytes of addresses: a limit of them would end their programs at once.
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-#define VANTAGE_SANITIZED 1
-#elif defined(__has_feature)
-#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
-#define VANTAGE_SANITIZED 1
-#endif
-#endif
 #ifndef VANTAGE_SANITIZED
 #define VANTAGE_SANITIZED 0
 #endif
