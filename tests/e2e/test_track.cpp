@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 void record_sequence(const fs::path& data) {
   const auto result = run_vantage(
       "simulate" + test::quoted_workcell("clutter") + " -o" + quoted(data) +
-      " --objects 6 --types red_cube,brick --seed 3 --samples 4 --instants 14 --period-s 0.2"
+      " --objects 6 --types red_cube,brick --seed 3 --samples 2 --instants 14 --period-s 0.2"
       " --moves 1 --carry-instants 2");
   CAPTURE(result.err);
   REQUIRE(result.exit_code == 0);
