@@ -16,7 +16,9 @@ constexpr double kMaxSeen = 30;
 constexpr double kMarkerCoordinates = 8;
 constexpr double kLabel = 0.25;  ///< of what a marker says
 constexpr double kFar_px = 12;   ///< beyond it a feature lies elsewhere than its object has it
-constexpr double kPartlyHidden = 0.1;  ///< something unknown hides the rest of an object in a view
+/// Something unknown hides all of an object from a view, or the rest of one that is seen in part:
+/// in clutter things are not found either that stand in the way.
+constexpr double kAllHidden = 0.35, kPartlyHidden = 0.3;
 constexpr double kMeasured = 0.4;  ///< of these, where a depth image would show what is in the way
 
 double log_odds(double probability) {
@@ -82,7 +84,7 @@ MissingFeatures missing_features(const ReconstructedObject& object,
       all_missed *= 1 - found;
       missing.count += found > 0.5;
     }
-    double hidden = seen.empty() ? kViewHidden : kPartlyHidden;
+    double hidden = seen.empty() ? kAllHidden : kPartlyHidden;
     if (presence.has_depth_beside(v)) hidden *= kMeasured;
     missing.log_ratio += std::log(hidden + (1 - hidden) * all_missed);
   }
