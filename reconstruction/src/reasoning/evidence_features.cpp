@@ -18,7 +18,7 @@ constexpr double kLabel = 0.25;  ///< of what a marker says
 constexpr double kFar_px = 12;   ///< beyond it a feature lies elsewhere than its object has it
 /// Something unknown hides all of an object from a view, or the rest of one that is seen in part:
 /// in clutter things are not found either that stand in the way.
-constexpr double kAllHidden = 0.5, kPartlyHidden = 0.45;
+constexpr double kAllHidden = 0.5, kPartlyHidden = 0.3;
 constexpr double kMeasured = 0.4;  ///< of these, where a depth image would show what is in the way
 
 double log_odds(double probability) {

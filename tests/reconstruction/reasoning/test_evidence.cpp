@@ -109,6 +109,7 @@ TEST_CASE("an object of which all should be seen, and only one marker is, is not
   CHECK(alone.objects.empty());
   CHECK(reason_has(alone, "should be seen, but are not"));
   CHECK(alone.unexplained.size() == 4);
+  REQUIRE(alone.rejected.size() == 1);
   CHECK(alone.rejected[0].object.evidence->features_missing >= 6);
   CHECK(alone.rejected[0].object.probability < 0.5);
 }
