@@ -149,10 +149,11 @@ PlanWorld load_plan_world(const fs::path& dataset, const std::vector<int>& image
                           const StopToken& stop) {
   SceneReconstructionOptions options = options_of(source.how);
   BopScene scene = load_dataset(dataset, workcell, images, options.observe);
-  apply_depth_lens(source.how.depth_lens == "auto"
-                       ? workcell.depth_lens
-                       : depth_lens_of(source.how.depth_lens, "--depth-lens"),
-                   calibrations_of(workcell, options.observe), scene);
+  const DepthLens lens = source.how.depth_lens == "auto"
+                             ? workcell.depth_lens
+                             : depth_lens_of(source.how.depth_lens, "--depth-lens");
+  apply_depth_lens(lens, calibrations_of(workcell, options.observe), scene);
+  options.depth_is_pinhole = lens != DepthLens::unsaid;
   PlanWorld plan{{}, source.objects, scene.files, scene.warnings, scene.images.front().intrinsics};
   if (plan.objects.empty()) plan.objects = usual_source(scene, workcell);
   const std::string method = plan.objects.starts_with(kGivenAnd)

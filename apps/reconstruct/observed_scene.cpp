@@ -13,6 +13,7 @@
 #include "reconstruct/calibration_list.hpp"
 #include "reconstruct/missing_markers.hpp"
 #include "vantage/raycore/error.hpp"
+#include "vantage/raycore/rectify_depth.hpp"
 #include "vantage/reconstruction/calibration.hpp"
 #include "vantage/reconstruction/color_image.hpp"
 #include "vantage/reconstruction/detector.hpp"
@@ -169,6 +170,22 @@ ObservedScene observe(const BopScene& scene, const Workcell& workcell,
   if (options.detect_markers) explain_missing_markers(scene, workcell, stop, observed);
   observed.locate_s = seconds_since(start);
   return observed;
+}
+
+std::vector<DepthCamera> depth_cameras(const BopScene& scene, const ObservedScene& observed,
+                                       bool depth_is_pinhole) {
+  constexpr double kNotable_px = 1;
+  std::vector<DepthCamera> cameras;
+  for (std::size_t v = 0; v < scene.images.size(); ++v) {
+    const BopImage& image = scene.images[v];
+    const CameraView& view = observed.views[v];
+    if (!image.depth || !view.T_world_cam) continue;
+    if (!depth_is_pinhole && max_displacement_px(view.lens) > kNotable_px) continue;
+    cameras.push_back({view.name,
+                       PinholeCamera(image.intrinsics, *view.T_world_cam, image.range, image.place),
+                       image.depth});
+  }
+  return cameras;
 }
 
 }  // namespace vantage

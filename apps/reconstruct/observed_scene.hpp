@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "vantage/raycore/stop_token.hpp"
+#include "vantage/raycore/world_model.hpp"
 #include "vantage/reconstruction/bop_scene.hpp"
 #include "vantage/reconstruction/locate_camera.hpp"
 #include "vantage/reconstruction/observation.hpp"
@@ -59,5 +60,11 @@ BopScene load_dataset(const std::filesystem::path& folder, const Workcell& workc
 /// camera with neither a pose nor a board to locate it by, and for a picture that is damaged.
 ObservedScene observe(const BopScene& scene, const Workcell& workcell,
                       const ObserveOptions& options, const StopToken& stop = {});
+
+/// The located cameras that have depth images.
+/// @param depth_is_pinhole whether the depth images are a pinhole's although a lens distorts; if
+/// nobody says so, those of lenses that distort by a pixel or more are left out.
+std::vector<DepthCamera> depth_cameras(const BopScene& scene, const ObservedScene& observed,
+                                       bool depth_is_pinhole);
 
 }  // namespace vantage

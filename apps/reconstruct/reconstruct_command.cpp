@@ -10,6 +10,7 @@
 #include "options/unused_options.hpp"
 #include "process/output_folder.hpp"
 #include "process/result_output.hpp"
+#include "reconstruct/depth_lens.hpp"
 #include "reconstruct/overlay_picture.hpp"
 #include "reconstruct/reconstruct_options.hpp"
 #include "reconstruct/scene_warnings.hpp"
@@ -62,7 +63,11 @@ ExitCode reconstruct_command(const ReconstructCommand& command) {
   SceneReconstructionOptions options = options_of(command.how);
   options.cameras_suffice = true;
   const Workcell workcell = load_workcell(command.workcell);
-  const BopScene scene = load_dataset(command.dataset, workcell, command.images, options.observe);
+  BopScene scene = load_dataset(command.dataset, workcell, command.images, options.observe);
+  if (workcell.depth_lens != DepthLens::unsaid) {
+    apply_depth_lens(workcell.depth_lens, calibrations_of(workcell, options.observe), scene);
+    options.depth_is_pinhole = true;
+  }
   const double load_s = seconds_since(start);
 
   const SceneReconstruction reconstruction = run.execute("reconstructing", [&] {

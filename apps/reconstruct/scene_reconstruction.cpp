@@ -110,7 +110,9 @@ SceneReconstruction reconstruct_scene(const BopScene& scene, const Workcell& wor
   const auto start = std::chrono::steady_clock::now();
   all.result =
       reconstruct(settings.method, all.observed.views, *workcell.knowledge, settings.options, stop);
-  reject_contradicted(all.observed.views, scene_knowledge(workcell, all.observed), all.result);
+  SceneKnowledge knowledge = scene_knowledge(workcell, all.observed);
+  knowledge.depth = depth_cameras(scene, all.observed, settings.depth_is_pinhole);
+  reject_contradicted(all.observed.views, knowledge, all.result);
   warn_of_motion(all.observed.views, *workcell.knowledge, settings.options, stop, all.result);
   all.reconstruct_s =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

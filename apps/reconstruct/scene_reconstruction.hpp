@@ -25,6 +25,7 @@ struct SceneReconstructionOptions {
   ReconstructOptions options = {};
   /// Without types to recognise, the poses of cameras that a board tells are enough of a result.
   bool cameras_suffice = false;
+  bool depth_is_pinhole = false;  ///< see `depth_cameras`
 };
 
 /// What stands in the recorded scene.

@@ -63,6 +63,42 @@ Json observation_json(const BopScene& scene, const std::vector<CameraView>& view
   return {{"image", scene.images[id.view].id}, {"type", key.type}, {"value", key.value}};
 }
 
+/// In log-odds; rounded to what they are good for.
+Json evidence_json(const std::optional<Evidence>& evidence) {
+  if (!evidence) return nullptr;
+  const Evidence& e = *evidence;
+  const auto value = [](double log_ratio) { return rounded(log_ratio, 1e-3) + 0.0; };
+  return {{"log_odds", value(e.log_odds())},
+          {"seen_features", value(e.seen_features)},
+          {"missing_features", value(e.missing_features)},
+          {"depth", value(e.depth)},
+          {"hidden_by_structure", value(e.hidden_by_structure)},
+          {"inside_structure", value(e.inside_structure)},
+          {"hides_board", value(e.hides_board)},
+          {"other_objects", value(e.other_objects)},
+          {"wrong_size", value(e.wrong_size)},
+          {"counts",
+           {{"features_missing", e.features_missing},
+            {"depth_on_surface", e.depth_on_surface},
+            {"depth_behind", e.depth_behind},
+            {"depth_in_front", e.depth_in_front}}}};
+}
+
+Json rejected_json(const BopScene& scene, const std::vector<CameraView>& views,
+                   const RejectedObject& rejected) {
+  const ReconstructedObject& object = rejected.object;
+  Json json{{"type", object.type->name},
+            {"reason", rejected.reason},
+            {"T_world_object", to_json(object.T_world_object)},
+            {"probability", object.probability},
+            {"evidence", evidence_json(object.evidence)},
+            {"support", Json::array()}};
+  for (const Support& support : object.support) {
+    json["support"].push_back(observation_json(scene, views, support.id));
+  }
+  return json;
+}
+
 Json object_json(const BopScene& scene, const SceneReconstruction& reconstruction,
                  const ReconstructedObject& object, const KnownObject& known) {
   Json json{{"name", known.name},
@@ -72,6 +108,7 @@ Json object_json(const BopScene& scene, const SceneReconstruction& reconstructio
             {"probability", object.probability},
             {"rms_px", object.rms_px},
             {"warning", object.warning.empty() ? Json() : Json(object.warning)},
+            {"evidence", evidence_json(object.evidence)},
             {"support", Json::array()},
             {"alternatives", Json::array()}};
   for (const Support& support : object.support) {
@@ -161,8 +198,12 @@ Json world_to_json(const BopScene& scene, const Workcell& workcell,
                    const std::vector<KnownObject>& objects, const WorldRecord& record) {
   const ObservedScene& observed = reconstruction.observed;
   Json cameras = Json::array(), found = Json::array(), unexplained = Json::array();
+  Json rejected = Json::array();
   for (std::size_t i = 0; i < scene.images.size(); ++i) {
     cameras.push_back(camera_json(scene.images[i], observed.views[i], observed.locations[i]));
+  }
+  for (const RejectedObject& object : reconstruction.result.rejected) {
+    rejected.push_back(rejected_json(scene, observed.views, object));
   }
   for (std::size_t i = 0; i < objects.size(); ++i) {
     found.push_back(
@@ -178,6 +219,7 @@ Json world_to_json(const BopScene& scene, const Workcell& workcell,
           {"partial", reconstruction.result.stopped != StopReason::none},
           {"cameras", cameras},
           {"objects", found},
+          {"rejected", rejected},
           {"unexplained", unexplained},
           {"warnings", record.warnings},
           {"bop", bop_json(scene, workcell, reconstruction)},

@@ -95,7 +95,9 @@ class SequenceRun {
     }
     check_cameras(scene, seen.observed);
     const std::vector<CameraView>& views = seen.observed.views;
-    const SceneKnowledge knowledge = scene_knowledge(workcell_, seen.observed);
+    SceneKnowledge knowledge = scene_knowledge(workcell_, seen.observed);
+    knowledge.depth =
+        depth_cameras(scene, seen.observed, workcell_.depth_lens == DepthLens::pinhole);
     if (!tracker_) {
       tracker_ = std::make_unique<ObjectTracker>(workcell_.knowledge,
                                                  SceneKnowledge{knowledge.solids}, options_);
@@ -105,9 +107,8 @@ class SequenceRun {
     reject_contradicted(views, knowledge, snapshot);
     warn_of_motion(views, *workcell_.knowledge, how_.options, run_.stop(), snapshot);
     if (run_.cancelled()) return;
-    const std::vector<DepthCamera> depth = TrackedCameras::depth_cameras(scene, seen.observed);
     const TrackedScene tracked =
-        tracker_->update({instant.time_s, views, depth}, std::move(snapshot));
+        tracker_->update({instant.time_s, views, knowledge.depth}, std::move(snapshot));
     record(instant, scene, tracked);
     if (!command_.folder.empty()) write(instant, scene, tracked, std::move(seen));
   }

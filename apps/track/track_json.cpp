@@ -62,9 +62,11 @@ Reconstruction as_reconstruction(const TrackedScene& scene) {
       if (seen.support != object.support || object.support.empty()) continue;
       as.rms_px = seen.rms_px;
       as.warning = seen.warning;
+      as.evidence = seen.evidence;
     }
     result.objects.push_back(std::move(as));
   }
+  result.rejected = scene.snapshot.rejected;
   return result;
 }
 

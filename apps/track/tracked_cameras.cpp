@@ -58,18 +58,4 @@ std::vector<std::string> TrackedCameras::apply(const BopScene& scene, ObservedSc
   return warnings;
 }
 
-std::vector<DepthCamera> TrackedCameras::depth_cameras(const BopScene& scene,
-                                                       const ObservedScene& observed) {
-  std::vector<DepthCamera> cameras;
-  for (std::size_t v = 0; v < scene.images.size(); ++v) {
-    const BopImage& image = scene.images[v];
-    if (!image.depth || !observed.views[v].T_world_cam) continue;
-    cameras.push_back(
-        {observed.views[v].name,
-         PinholeCamera(image.intrinsics, *observed.views[v].T_world_cam, image.range, image.place),
-         image.depth});
-  }
-  return cameras;
-}
-
 }  // namespace vantage

@@ -18,10 +18,6 @@ class TrackedCameras {
   /// @returns warnings, one for each camera that was moved.
   std::vector<std::string> apply(const BopScene& scene, ObservedScene& observed);
 
-  /// The cameras that have depth, where they are.
-  static std::vector<DepthCamera> depth_cameras(const BopScene& scene,
-                                                const ObservedScene& observed);
-
  private:
   struct Mounted {
     Pose T_world_cam;

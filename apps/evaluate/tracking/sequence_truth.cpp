@@ -46,18 +46,20 @@ class ObjectTruth {
                     .to = stay.T_world_object};
     if (known_ != nullptr) {
       event.kind = SceneEventKind::moved;
-      event.begin = left_.value_or(instant);
+      event.begin = has_left_ ? left_ : instant;
       event.from = known_->T_world_object;
     }
     const bool at_start = known_ == nullptr && instant == 0;
     if (!at_start) truth_.events.push_back(event);
     known_ = &stay;
     since_ = instant;
-    left_.reset();
+    has_left_ = false;
   }
 
   void leave(int instant) {
-    if (known_ != nullptr && !left_) left_ = instant;
+    if (known_ == nullptr || has_left_) return;
+    has_left_ = true;
+    left_ = instant;
   }
 
   /// Once it was taken away for good.
@@ -68,7 +70,7 @@ class ObjectTruth {
     truth_.events.push_back({.kind = SceneEventKind::disappeared,
                              .object = object_.id,
                              .type = type_,
-                             .begin = *left_,
+                             .begin = left_,
                              .due = instant,
                              .from = known_->T_world_object});
     gone_ = true;
@@ -87,7 +89,8 @@ class ObjectTruth {
   SequenceTruth& truth_;
   const Stay* known_ = nullptr;  ///< where it was seen last
   int since_ = 0;
-  std::optional<int> left_ = {};  ///< since when it stands there no more
+  bool has_left_ = false;
+  int left_ = 0;  ///< since when it stands there no more
   bool gone_ = false;
 };
 

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "simulator/sequence/detector_recall.hpp"
+#include "vantage/reconstruction/detector_recall.hpp"
 
 namespace vantage {
 namespace {

@@ -94,6 +94,9 @@ void reject_misidentified(std::vector<Candidate>& candidates, const InlierThresh
       if (!all) continue;
       doubtful.rejected =
           fmt::format("lies where a {} has {}: misread", object.type()->name, name_of(marker->key));
+      doubtful.there = 0;
+      const std::size_t ways = doubtful.voted_hypotheses.size();
+      doubtful.shares.assign(ways, 1 / double(ways));
     }
   }
 }

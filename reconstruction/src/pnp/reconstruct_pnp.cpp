@@ -163,6 +163,7 @@ Reconstruction reconstruct_pnp(std::span<const CameraView> views, const Knowledg
     for (const Correspondence* correspondence : candidate.best().correspondences) {
       result.unexplained.push_back({correspondence->measurement->id, candidate.rejected});
     }
+    result.rejected.push_back({object_of(candidate), candidate.rejected});
   }
   explain_rest(components, done, thresholds, result);
   sort_result(knowledge, result);

@@ -6,31 +6,12 @@
 #include <vector>
 
 #include "hypothesis/expected_markers.hpp"
+#include "reasoning/evidence_depth.hpp"
 #include "vantage/raycore/world_model.hpp"
 #include "vantage/reconstruction/object_type.hpp"
 
 // Private: what the cameras say of objects that are not seen: are they hidden, or gone?
 namespace vantage::reconstruction::detail {
-
-/// A point of an object's surface.
-struct SurfacePoint {
-  Eigen::Vector3d p_object, normal;
-};
-
-/// Points spread over a mesh by area, always the same ones.
-std::vector<SurfacePoint> surface_points(const TriangleMesh& mesh);
-
-/// What the depth images show where an object would be.
-struct DepthAtObject {
-  int through = 0;  ///< of its surface's points: what is seen there lies behind
-  int at = 0;       ///< a surface is measured there
-  int hidden = 0;   ///< something nearer is measured
-
-  /// Whether light came through where the object would be.
-  bool refutes() const { return through >= 6 && through * 10 >= (through + at) * 7; }
-  /// Whether something is there, of this shape as far as can be seen.
-  bool supports() const { return at >= 6 && at * 10 >= (through + at) * 7; }
-};
 
 /// What an object that stands at a pose should look like to the cameras of a snapshot. Refers to
 /// all that it is made of; thread-safe once made.
@@ -40,15 +21,28 @@ class Presence {
   Presence(std::span<const CameraView> views, std::span<const DepthCamera> depth,
            const Scene& scene);
 
-  /// For each view, how many of the object's features it should see: 0 for one that is not located,
-  /// or in whose way something known or measured is.
-  std::vector<int> expected_features(const ObjectType& type, const Pose& T_world_object) const;
+  /// How likely a view's detector finds a feature of an object at this pose. 0 for a view that is
+  /// not located, and where something known or measured is in the way.
+  double found_probability(std::size_t view, const ObjectFeature& feature,
+                           const Pose& T_world_object) const;
 
+  /// For each view, how likely it misses all of the object's features that are hardly ever missed,
+  /// if nothing unknown hides them: 1 if it may see none.
+  std::vector<double> missed_probability(const ObjectType& type, const Pose& T_world_object) const;
+
+  /// All images together.
   DepthAtObject depth_at(const std::vector<SurfacePoint>& surface,
                          const Pose& T_world_object) const;
 
+  bool has_depth_beside(std::size_t view) const { return !depth_beside_[view].empty(); }
+
  private:
-  bool sees(std::size_t view, const ObjectFeature& feature, const Pose& T_world_object) const;
+  bool is_in_sight(std::size_t view, const std::vector<Eigen::Vector3d>& points,
+                   const Pose& T_world_object) const;
+  bool is_sure_to_see(std::size_t view, const ObjectFeature& feature,
+                      const Pose& T_world_object) const;
+  bool is_behind_something(std::size_t view, const std::vector<Eigen::Vector3d>& points,
+                           const Pose& T_world_object) const;
   bool is_measured_before(std::size_t view, const Eigen::Vector3d& p_world) const;
 
   std::span<const CameraView> views_;

@@ -33,8 +33,8 @@ bool History::was_seen_empty(const ObjectType& type, const Pose& T_world_object)
     const double step_s = last ? past_[i]->time_s - last->time_s : 0;
     last = past_[i];
     streaks.resize(last->views.size());
-    const auto expected = last->presence->expected_features(type, T_world_object);
-    for (std::size_t v = 0; v < streaks.size(); ++v) streaks[v].miss(expected[v], false, step_s);
+    const auto missed = last->presence->missed_probability(type, T_world_object);
+    for (std::size_t v = 0; v < streaks.size(); ++v) streaks[v].miss(missed[v], false, step_s);
   }
   return log_of(streaks) < std::log(kUnlikelyMissed);
 }

@@ -74,7 +74,9 @@ struct ObjectTracker::Impl {
 
   Reconstruction reconstruct(const Snapshot& snapshot, const StopToken& stop) const {
     Reconstruction result = reconstruct_pnp(snapshot.views, *knowledge, options.reconstruct, stop);
-    reject_contradicted(snapshot.views, scene, result);
+    SceneKnowledge now = scene;
+    now.depth.assign(snapshot.depth.begin(), snapshot.depth.end());
+    reject_contradicted(snapshot.views, now, result);
     warn_of_motion(snapshot.views, *knowledge, options.reconstruct, stop, result);
     return result;
   }

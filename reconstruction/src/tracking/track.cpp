@@ -10,11 +10,10 @@ constexpr double kMissedThere = 0.5;  ///< at least, where something of its shap
 
 }  // namespace
 
-void MissingStreak::miss(int expected, bool something_there, double step_s) {
+void MissingStreak::miss(double missed, bool something_there, double step_s) {
   const double changes = 1 - std::exp(-step_s / kHides_s);
   const double stays = (1 - changes) * hidden + kViewHidden * changes * clear;
   const double comes = changes * hidden + (1 - kViewHidden * changes) * clear;
-  double missed = std::pow(kMarkerMissed, expected);
   if (something_there) missed = std::max(missed, kMissedThere);
   hidden = stays;
   clear = comes * missed;

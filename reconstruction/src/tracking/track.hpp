@@ -51,10 +51,10 @@ struct Interval {
 struct MissingStreak {
   double hidden = kViewHidden, clear = 1 - kViewHidden;
 
-  /// @param expected the number of features that should be seen.
+  /// @param missed how likely all features are missed where nothing hides the object.
   /// @param something_there depth is measured where the object would be.
   /// @param step_s since the last snapshot.
-  void miss(int expected, bool something_there, double step_s);
+  void miss(double missed, bool something_there, double step_s);
   double probability() const { return hidden + clear; }
 };
 

@@ -108,10 +108,10 @@ void TrackSet::doubt_identity(Track& track) {
 void TrackSet::check_left(Track& track, const SnapshotEvidence& evidence) {
   if (!track.left) return;
   const Pose& pose = track.left->place.filter.pose();
-  const auto expected = evidence.presence->expected_features(*track.type, pose);
+  const auto missed = evidence.presence->missed_probability(*track.type, pose);
   const DepthAtObject depth = evidence.presence->depth_at(surface_of(track.type), pose);
-  for (std::size_t v = 0; v < expected.size(); ++v) {
-    track.left->streaks[v].miss(expected[v], depth.supports(), evidence.step_s);
+  for (std::size_t v = 0; v < missed.size(); ++v) {
+    track.left->streaks[v].miss(missed[v], depth.supports(), evidence.step_s);
   }
   if (!depth.refutes() && log_of(track.left->streaks) > kEmptyLog) return;
   track.left.reset();

@@ -65,7 +65,7 @@ void TrackSet::predict(double step_s) {
 
 TrackSet::Expected TrackSet::expected_of(const Track& track, const SnapshotEvidence& evidence) {
   const Pose& pose = track.place.filter.pose();
-  return {evidence.presence->expected_features(*track.type, pose),
+  return {evidence.presence->missed_probability(*track.type, pose),
           evidence.presence->depth_at(surface_of(track.type), pose)};
 }
 
@@ -77,7 +77,7 @@ void TrackSet::take_in(const SnapshotEvidence& evidence) {
     double log = 0;
     for (std::size_t v = 0; v < evidence.views.size(); ++v) {
       MissingStreak streak = track.streaks[v];
-      streak.miss(expected.back().features[v], expected.back().depth.supports(), evidence.step_s);
+      streak.miss(expected.back().missed[v], expected.back().depth.supports(), evidence.step_s);
       log += std::log(streak.probability() / track.streaks[v].probability());
     }
     unseen.push_back(-log);
@@ -155,12 +155,12 @@ void TrackSet::miss(Track& track, const Expected& expected, const SnapshotEviden
   if (on_its_way) return;  // it was seen, and is taken to be there
   if (!track.missing_since_s) track.missing_since_s = evidence.time_s;
   for (std::size_t v = 0; v < track.streaks.size(); ++v) {
-    track.streaks[v].miss(expected.features[v], expected.depth.supports(), evidence.step_s);
+    track.streaks[v].miss(expected.missed[v], expected.depth.supports(), evidence.step_s);
   }
   if (expected.depth.refutes()) track.log_odds -= kRefutedLog;
   if (!track.settled) track.log_odds -= kUnsettled;
   const bool expected_somewhere =
-      std::ranges::any_of(expected.features, [](int features) { return features > 0; });
+      std::ranges::any_of(expected.missed, [](double missed) { return missed < 0.5; });
   track.hidden = !expected_somewhere && !expected.depth.refutes();
 }
 

@@ -33,7 +33,7 @@ class TrackSet {
  private:
   /// What this snapshot expects of a track's object, and shows where it would be.
   struct Expected {
-    std::vector<int> features;  ///< by view
+    std::vector<double> missed;  ///< by view: how likely it misses all features
     DepthAtObject depth;
   };
 

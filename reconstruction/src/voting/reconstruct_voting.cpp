@@ -96,6 +96,7 @@ Reconstruction reconstruct_voting(std::span<const CameraView> views, const Knowl
     for (const Support& support : object.support) {
       result.unexplained.push_back({support.id, selected.candidate.rejected});
     }
+    result.rejected.push_back({object, selected.candidate.rejected});
   }
   explain_rest(candidates, election, result);
   sort_result(knowledge, result);

@@ -11,8 +11,8 @@
 #include "simulator/color_scenes.hpp"
 #include "simulator/markers/marker_print.hpp"
 #include "simulator/scene/sample_hash.hpp"
-#include "simulator/sequence/detector_recall.hpp"
 #include "vantage/reconstruction/detector.hpp"
+#include "vantage/reconstruction/detector_recall.hpp"
 
 namespace vantage::test {
 namespace {

@@ -35,6 +35,25 @@ struct Alternative {
   double probability = 0;
 };
 
+/// What the scene says for an object (above 0) and against it (below 0): natural logarithms of
+/// likelihood ratios, one for each kind of evidence. Their sum is the log-odds of the object being
+/// there. `reject_contradicted` fills it in.
+struct Evidence {
+  double seen_features = 0;        ///< features that were seen where it has them
+  double missing_features = 0;     ///< features that cameras should have seen, and did not
+  double depth = 0;                ///< depth images show its surface, or what lies behind it
+  double hidden_by_structure = 0;  ///< structures would hide what was seen of it
+  double inside_structure = 0;     ///< it would reach into a structure
+  double hides_board = 0;          ///< it would hide markers of the board that were seen
+  double other_objects = 0;        ///< it and other objects would hide each other, or overlap
+  double wrong_size = 0;           ///< its features fit to each other in another size only
+  int features_missing = 0;        ///< features that should have been seen, over all views
+  /// Points of its surface, over all depth images: measured there; something behind them, in front.
+  int depth_on_surface = 0, depth_behind = 0, depth_in_front = 0;
+
+  VANTAGE_API double log_odds() const;
+};
+
 /// An object that was found.
 struct ReconstructedObject {
   TypePtr type;
@@ -49,6 +68,13 @@ struct ReconstructedObject {
   /// The part of `covariance` that is new in every picture: the noise of the observations. The rest
   /// (the cameras' poses, prints, calibration) is the same in all pictures of the cameras.
   std::optional<Matrix6d> noise_covariance = {};
+  std::optional<Evidence> evidence = {};  ///< none: it was not weighed
+};
+
+/// An object that explains observations, but is less likely there than not.
+struct RejectedObject {
+  ReconstructedObject object;
+  std::string reason;  ///< for people
 };
 
 /// An observation that no object explains.
@@ -63,6 +89,7 @@ struct Reconstruction {
   std::vector<ReconstructedObject> objects;
   std::vector<Unexplained> unexplained;  ///< ascending by id
   StopReason stopped = StopReason::none;
+  std::vector<RejectedObject> rejected = {};  ///< in the order in which they were rejected
 };
 
 /// The objects as the planner sees them, with names that are unique: the type's, and a number where

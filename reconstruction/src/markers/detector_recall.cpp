@@ -1,4 +1,4 @@
-#include "simulator/sequence/detector_recall.hpp"
+#include "vantage/reconstruction/detector_recall.hpp"
 
 #include <algorithm>
 #include <array>
