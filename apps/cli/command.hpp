@@ -36,5 +36,6 @@ void add_evaluate_replay(CLI::App& evaluate_verb, Action& action);
 void add_evaluate_gain(CLI::App& evaluate_verb, Action& action);
 void add_evaluate_expected_gain(CLI::App& evaluate_verb, Action& action);
 void add_evaluate_tracking(CLI::App& evaluate_verb, Action& action);
+void add_evaluate_stability(CLI::App& evaluate_verb, Action& action);
 
 }  // namespace vantage

@@ -10,7 +10,6 @@ namespace vantage {
 namespace {
 
 namespace fs = std::filesystem;
-using nlohmann::json;
 
 /// Values of one frame, and where it has none those of the whole file.
 class FrameValues {
@@ -25,7 +24,7 @@ class FrameValues {
     }
   }
 
-  const json* find(const char* key) const {
+  const nlohmann::json* find(const char* key) const {
     if (frame_.contains(key)) return &frame_[key];
     return document_.root.contains(key) ? &document_.root[key] : nullptr;
   }
@@ -35,13 +34,13 @@ class FrameValues {
   std::string frame_place() const { return document_.place(pointer_); }
 
   std::optional<double> number(const char* key) const {
-    const json* found = find(key);
+    const nlohmann::json* found = find(key);
     if (!found) return std::nullopt;
     if (found->is_number() && std::isfinite(found->get<double>())) return found->get<double>();
     throw bad_input(place(key), fmt::format("found {}; expected a finite number", shown(*found)));
   }
   std::optional<std::string> text(const char* key) const {
-    const json* found = find(key);
+    const nlohmann::json* found = find(key);
     if (!found || found->is_null()) return std::nullopt;
     if (found->is_string()) return found->get<std::string>();
     throw bad_input(place(key), fmt::format("found {}; expected text", shown(*found)));
@@ -50,12 +49,12 @@ class FrameValues {
  private:
   const Document& document_;
   std::string pointer_;
-  const json& frame_;
+  const nlohmann::json& frame_;
 };
 
 /// The camera looks along -z there, with y up: OpenGL's axes. Ours look along z, with y down.
 Pose pose_of(const FrameValues& frame) {
-  const json* matrix = frame.find("transform_matrix");
+  const nlohmann::json* matrix = frame.find("transform_matrix");
   const auto fail = [&](const std::string& found) {
     return bad_input(frame.place("transform_matrix"),
                      fmt::format("{}; expected 4 rows of 4 numbers, camera to world", found));
@@ -64,7 +63,7 @@ Pose pose_of(const FrameValues& frame) {
   if (!matrix->is_array() || matrix->size() < 3) throw fail("found " + shown(*matrix));
   Eigen::Matrix<double, 3, 4> m;
   for (int i = 0; i < 3; ++i) {
-    const json& row = (*matrix)[std::size_t(i)];
+    const nlohmann::json& row = (*matrix)[std::size_t(i)];
     if (!row.is_array() || row.size() != 4) throw fail("found " + shown(*matrix));
     for (int j = 0; j < 4; ++j) {
       if (!row[std::size_t(j)].is_number()) throw fail("found " + shown(*matrix));
@@ -147,7 +146,7 @@ ImportedDataset read_nerfstudio(const fs::path& source) {
     dataset.images.push_back(std::move(image));
   }
   if (any_depth && document.root.contains("depth_unit_scale_factor")) {
-    const json& factor = document.root["depth_unit_scale_factor"];
+    const nlohmann::json& factor = document.root["depth_unit_scale_factor"];
     if (!factor.is_number() || !(factor.get<double>() > 0)) {
       throw bad_input(
           document.place("/depth_unit_scale_factor"),

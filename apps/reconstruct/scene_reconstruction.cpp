@@ -112,6 +112,7 @@ SceneReconstruction reconstruct_scene(const BopScene& scene, const Workcell& wor
       reconstruct(settings.method, all.observed.views, *workcell.knowledge, settings.options, stop);
   reject_contradicted(all.observed.views, scene_knowledge(workcell, all.observed), all.result);
   warn_of_motion(all.observed.views, *workcell.knowledge, settings.options, stop, all.result);
+  all.support = check_support(scene, workcell, all.observed.views, all.result.objects);
   all.reconstruct_s =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return all;

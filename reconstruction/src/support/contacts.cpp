@@ -194,4 +194,11 @@ std::vector<ContactPatch> find_contacts(std::span<const SupportBody> bodies,
   return patches;
 }
 
+ContactScene contact_scene(std::span<const ReconstructedObject> objects,
+                           std::span<const KnownObject> structures, const SupportOptions& options) {
+  ContactScene scene{support_bodies(objects, structures), {}};
+  scene.patches = find_contacts(scene.bodies, options);
+  return scene;
+}
+
 }  // namespace vantage::reconstruction::detail

@@ -30,6 +30,15 @@ struct ContactPatch {
 std::vector<ContactPatch> find_contacts(std::span<const SupportBody> bodies,
                                         const SupportOptions& options);
 
+/// Bodies, and what of them touches.
+struct ContactScene {
+  std::vector<SupportBody> bodies;  ///< objects first, then structures
+  std::vector<ContactPatch> patches;
+};
+
+ContactScene contact_scene(std::span<const ReconstructedObject> objects,
+                           std::span<const KnownObject> structures, const SupportOptions& options);
+
 /// How far apart two bodies may be at a point, along a direction, and touch all the same.
 /// @param lower null: the floor.
 double contact_slack(const SupportBody& upper, const SupportBody* lower,

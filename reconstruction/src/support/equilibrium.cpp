@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <optional>
 
@@ -132,6 +133,36 @@ class EquilibriumProgram {
   std::vector<int> hidden_;
 };
 
+/// Bodies as one.
+struct MassPoint {
+  double mass = 0;
+  Eigen::Vector3d moment = Eigen::Vector3d::Zero();
+
+  void add(double more, const Eigen::Vector3d& at) {
+    mass += more;
+    moment += more * at;
+  }
+  Eigen::Vector3d centre() const { return moment / mass; }
+};
+
+/// Whether a point lies over an area of contact that is horizontal: in every direction there is a
+/// contact beyond it.
+bool is_above(const Eigen::Vector3d& point, const ContactPatch& patch) {
+  std::vector<double> angles;
+  for (const ContactPoint& contact : patch.points) {
+    if (contact.normal.z() < 0.999) continue;
+    const Eigen::Vector3d way = contact.point - point;
+    angles.push_back(std::atan2(way.y(), way.x()));
+  }
+  if (angles.size() < 3) return false;
+  std::ranges::sort(angles);
+  double widest = angles.front() + 2 * EIGEN_PI - angles.back();
+  for (std::size_t i = 1; i < angles.size(); ++i) {
+    widest = std::max(widest, angles[i] - angles[i - 1]);
+  }
+  return widest < EIGEN_PI;
+}
+
 }  // namespace
 
 Balance balance_of(std::span<const SupportBody> bodies, std::span<const std::size_t> members,
@@ -143,22 +174,26 @@ Balance balance_of(std::span<const SupportBody> bodies, std::span<const std::siz
   return program.solve();
 }
 
-bool rests_on(const SupportBody& body, const ContactPatch& patch) {
-  // The centre of mass is inside if every direction has a contact beyond it.
-  std::vector<Eigen::Vector2d> ways;
-  for (const ContactPoint& point : patch.points) {
-    if (point.normal.z() < 0.999) continue;
-    ways.push_back((point.point - body.centre_of_mass).head<2>());
+bool stands_as_tree(std::span<const SupportBody> bodies, std::span<const std::size_t> members,
+                    std::span<const ContactPatch* const> patches) {
+  // The highest first: what a body carries is known before it is looked at.
+  std::vector<std::size_t> order(members.begin(), members.end());
+  std::ranges::stable_sort(order, std::ranges::greater(),
+                           [&](std::size_t i) { return bodies[i].bounds.center().z(); });
+  std::map<std::size_t, MassPoint> carried;
+  for (const std::size_t member : order) {
+    const ContactPatch* below = nullptr;
+    for (const ContactPatch* patch : patches) {
+      if (patch->upper != member) continue;
+      if (below != nullptr) return false;
+      below = patch;
+    }
+    MassPoint all = carried[member];
+    all.add(bodies[member].mass, bodies[member].centre_of_mass);
+    if (below == nullptr || !is_above(all.centre(), *below)) return false;
+    carried[below->lower].add(all.mass, all.centre());
   }
-  if (ways.size() < 3) return false;
-  std::vector<double> angles;
-  for (const Eigen::Vector2d& way : ways) angles.push_back(std::atan2(way.y(), way.x()));
-  std::ranges::sort(angles);
-  double widest = angles.front() + 2 * EIGEN_PI - angles.back();
-  for (std::size_t i = 1; i < angles.size(); ++i) {
-    widest = std::max(widest, angles[i] - angles[i - 1]);
-  }
-  return widest < EIGEN_PI;
+  return true;
 }
 
 }  // namespace vantage::reconstruction::detail

@@ -31,8 +31,10 @@ Balance balance_of(std::span<const SupportBody> bodies, std::span<const std::siz
                    std::span<const ContactPatch* const> patches,
                    std::span<const HiddenSupport> hidden, const SupportOptions& options);
 
-/// Whether a body that touches nothing but this, which stands, is in equilibrium for certain: its
-/// centre of mass is above a horizontal area of contact. False says nothing.
-bool rests_on(const SupportBody& body, const ContactPatch& patch);
+/// Whether bodies are in equilibrium for certain, as each lies on one other alone, or on what
+/// stands, and over that horizontal area of contact the common centre of mass of it and all that it
+/// carries. False says nothing. Quicker than `balance_of`, and enough for most.
+bool stands_as_tree(std::span<const SupportBody> bodies, std::span<const std::size_t> members,
+                    std::span<const ContactPatch* const> patches);
 
 }  // namespace vantage::reconstruction::detail

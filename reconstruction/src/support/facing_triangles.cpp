@@ -37,6 +37,18 @@ SmallPolygon cut(const SmallPolygon& polygon, const Eigen::Vector2d& a, const Ei
   return result;
 }
 
+/// Of a long polygon how wide it is, of others about half of that.
+double width_of(const SmallPolygon& polygon) {
+  double twice_area = 0, around = 0;
+  for (std::size_t i = 0; i < polygon.size; ++i) {
+    const Eigen::Vector2d& p = polygon.corners[i];
+    const Eigen::Vector2d& q = polygon.corners[(i + 1) % polygon.size];
+    twice_area += cross_of(p, q);
+    around += (q - p).norm();
+  }
+  return around > 0 ? std::abs(twice_area) / around : 0;
+}
+
 /// Two triangles seen along the middle of their normals.
 class FacingPair {
  public:
@@ -126,9 +138,14 @@ void add_contacts(const FacingTriangle& upper, const FacingTriangle& lower, cons
   if (opposed < kLeastOpposed) return;
   const FacingPair pair(upper, lower);
   const SmallPolygon overlap = pair.overlap();
+  // Faces that meet at an edge only, as the sides of a body and of one on top of it, do not touch;
+  // and bodies that overlap by more than the faces do are in touch in another direction.
+  const double width = width_of(overlap);
+  if (width < 10 * kSameSpot_m) return;
   for (std::size_t i = 0; i < overlap.size; ++i) {
     const ContactPoint contact = pair.contact(overlap.corners[i], opposed >= limits.flat_cosine);
-    if (contact.gap_m >= -limits.deepest_m && contact.gap_m <= limits.widest_m) {
+    const double deepest = std::min(limits.deepest_m, width);
+    if (contact.gap_m >= -deepest && contact.gap_m <= limits.widest_m) {
       points.push_back(contact);
     }
   }

@@ -6,6 +6,7 @@
 
 #include "support/equilibrium.hpp"
 #include "support/hidden_supports.hpp"
+#include "support/support_steps.hpp"
 #include "vantage/reconstruction/support.hpp"
 
 namespace vantage {
@@ -13,16 +14,16 @@ namespace {
 
 using reconstruction::detail::Balance;
 using reconstruction::detail::balance_of;
+using reconstruction::detail::contact_scene;
 using reconstruction::detail::contact_slack;
 using reconstruction::detail::ContactPatch;
 using reconstruction::detail::ContactPoint;
-using reconstruction::detail::find_contacts;
+using reconstruction::detail::ContactScene;
 using reconstruction::detail::hidden_places;
 using reconstruction::detail::HiddenPlace;
 using reconstruction::detail::HiddenSupport;
 using reconstruction::detail::region_under;
-using reconstruction::detail::rests_on;
-using reconstruction::detail::support_bodies;
+using reconstruction::detail::stands_as_tree;
 using reconstruction::detail::SupportBody;
 
 constexpr double kPushesUp = 0.1;         ///< z of the force's direction
@@ -38,12 +39,11 @@ struct Stack {
 
 class SupportJudge {
  public:
-  SupportJudge(std::span<const ReconstructedObject> objects,
-               std::span<const KnownObject> structures, const SpaceProbe& space,
+  SupportJudge(std::size_t count, const ContactScene& scene, const SpaceProbe& space,
                const SupportOptions& options)
-      : count_(objects.size()),
-        bodies_(support_bodies(objects, structures)),
-        patches_(find_contacts(bodies_, options)),
+      : count_(count),
+        bodies_(scene.bodies),
+        patches_(scene.patches),
         space_(space),
         options_(options) {}
 
@@ -114,8 +114,7 @@ class SupportJudge {
   }
 
   void judge(const Stack& stack) {
-    const bool alone = stack.members.size() == 1 && stack.patches.size() == 1;
-    if (alone && rests_on(bodies_[stack.members[0]], *stack.patches[0])) return;
+    if (stands_as_tree(bodies_, stack.members, stack.patches)) return;
     if (stack.is_grounded) {
       const Balance balance = balance_of(bodies_, stack.members, stack.patches, {}, options_);
       if (std::ranges::all_of(balance.is_held, [](bool held) { return held; })) return;
@@ -200,8 +199,8 @@ class SupportJudge {
   }
 
   std::size_t count_;
-  std::vector<SupportBody> bodies_;
-  std::vector<ContactPatch> patches_;
+  std::span<const SupportBody> bodies_;
+  std::span<const ContactPatch> patches_;
   const SpaceProbe& space_;
   const SupportOptions& options_;
   std::vector<ObjectSupport> result_;
@@ -209,10 +208,18 @@ class SupportJudge {
 
 }  // namespace
 
+std::vector<ObjectSupport> reconstruction::detail::judge(std::size_t count,
+                                                         const ContactScene& scene,
+                                                         const SpaceProbe& space,
+                                                         const SupportOptions& options) {
+  return SupportJudge(count, scene, space, options).judge();
+}
+
 std::vector<ObjectSupport> judge_support(std::span<const ReconstructedObject> objects,
                                          std::span<const KnownObject> structures,
                                          const SpaceProbe& space, const SupportOptions& options) {
-  return SupportJudge(objects, structures, space, options).judge();
+  const ContactScene scene = contact_scene(objects, structures, options);
+  return SupportJudge(objects.size(), scene, space, options).judge();
 }
 
 void lower_unsupported(std::span<const ObjectSupport> support,

@@ -4,18 +4,19 @@
 
 #include "pose/pose_manifold.hpp"
 #include "support/resting_face.hpp"
+#include "support/support_steps.hpp"
 #include "vantage/reconstruction/support.hpp"
 
 namespace vantage {
 namespace {
 
+using reconstruction::detail::contact_scene;
 using reconstruction::detail::ContactPatch;
+using reconstruction::detail::ContactScene;
 using reconstruction::detail::exp_of;
-using reconstruction::detail::find_contacts;
 using reconstruction::detail::motion_row;
 using reconstruction::detail::resting_distances;
 using reconstruction::detail::RestingDistance;
-using reconstruction::detail::support_bodies;
 using reconstruction::detail::SupportBody;
 
 using Vector6d = Eigen::Matrix<double, 6, 1>;
@@ -65,13 +66,13 @@ struct ContactMeasurement {
 
 class ContactPuller {
  public:
-  ContactPuller(std::span<const KnownObject> structures, const SupportOptions& options,
+  ContactPuller(const ContactScene& scene, const SupportOptions& options,
                 std::vector<ObjectSupport>& support, std::span<ReconstructedObject> objects)
       : options_(options),
         support_(support),
         objects_(objects),
-        bodies_(support_bodies(objects, structures)),
-        patches_(find_contacts(bodies_, options)),
+        bodies_(scene.bodies),
+        patches_(scene.patches),
         steps_(objects.size(), Vector6d::Zero()),
         is_done_(objects.size(), false) {}
 
@@ -131,17 +132,23 @@ class ContactPuller {
   const SupportOptions& options_;
   std::vector<ObjectSupport>& support_;
   std::span<ReconstructedObject> objects_;
-  std::vector<SupportBody> bodies_;
-  std::vector<ContactPatch> patches_;
+  std::span<const SupportBody> bodies_;
+  std::span<const ContactPatch> patches_;
   std::vector<Vector6d> steps_;
   std::vector<bool> is_done_;
 };
 
 }  // namespace
 
+void reconstruction::detail::pull(const ContactScene& scene, const SupportOptions& options,
+                                  std::vector<ObjectSupport>& support,
+                                  std::span<ReconstructedObject> objects) {
+  ContactPuller(scene, options, support, objects).run();
+}
+
 void pull_to_contact(std::span<const KnownObject> structures, const SupportOptions& options,
                      std::vector<ObjectSupport>& support, std::span<ReconstructedObject> objects) {
-  ContactPuller(structures, options, support, objects).run();
+  ContactPuller(contact_scene(objects, structures, options), options, support, objects).run();
 }
 
 }  // namespace vantage
