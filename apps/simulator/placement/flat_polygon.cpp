@@ -69,7 +69,8 @@ double depth_inside(const FlatPolygon& polygon, const Eigen::Vector2d& point) {
   for (std::size_t i = 0; i < polygon.size(); ++i) {
     const Eigen::Vector2d &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
     const double length = (b - a).norm();
-    if (length > 0) depth = std::min(depth, left_of(a, b, point) / length);
+    // What is shorter comes from rounding, and so does its direction.
+    if (length > 1e-7) depth = std::min(depth, left_of(a, b, point) / length);
   }
   return depth;
 }

@@ -148,6 +148,13 @@ RandomStack StackMaker::make(StackFault fault, std::uint64_t seed, const Eigen::
     RandomStack stack{fault, {}, count};
     if (fault == StackFault::removed) {
       stack.broken_at = std::size_t(random(1) * double(count - 1));
+      // What stays below must not have needed the weight that is gone.
+      const std::span<const Level> below(made.data(), stack.broken_at);
+      bool stands = true;
+      for (std::size_t i = 1; i < below.size(); ++i) {
+        stands = stands && Level::margin_m(below, i) > options.inside_m;
+      }
+      if (!stands) continue;
       made.erase(made.begin() + std::ptrdiff_t(stack.broken_at));
     }
     if (fault == StackFault::shifted) {

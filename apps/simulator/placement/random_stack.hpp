@@ -38,7 +38,7 @@ struct RandomStackOptions {
   double floor_z_m = 0;
   /// How far the centre of mass of what lies above lies inside the area of contact in every joint
   /// of a stack that stands, at least; and how far outside where one is shifted.
-  double inside_m = 0.002, outside_m = 0.008, farthest_outside_m = 0.03;
+  double inside_m = 0.002, outside_m = 0.015, farthest_outside_m = 0.03;
 };
 
 /// Makes stacks of bodies that have horizontal faces at top and bottom when they are at rest. Which

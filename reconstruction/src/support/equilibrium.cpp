@@ -14,6 +14,7 @@ namespace {
 // Costs of what is not there, so that it is the last resort: a torque is cheaper than a force, for
 // a body that tips should be to blame rather than those that it stands on or carries.
 constexpr double kMissingForce = 1000, kMissingTorque = 300;
+constexpr int kNoRow = -1;
 constexpr double kHeld = 1e-5;  ///< of its weight: a body that lacks less is held
 
 /// The programme: for each body six rows, forces and torques about its centre of mass. Forces are
@@ -39,14 +40,14 @@ class EquilibriumProgram {
 
   void add(const ContactPatch& patch) {
     const auto upper = slot_of(patch.upper), lower = slot_of(patch.lower);
-    // Forces may attack elsewhere only as far as something presses. The floor is everywhere.
-    std::vector<int> budgets;
+    // Forces may attack elsewhere only as far as something presses: elsewhere on the one body or on
+    // the other. The floor is everywhere.
+    const bool may_shift = patch.slack_m > 0 && patch.lower < bodies_.size();
+    const int budget = may_shift ? program_.add_row(-LinearProgram::kUnbounded, 0) : kNoRow;
     for (const auto& slot : {upper, lower}) {
-      if (!slot || !(patch.slack_m > 0) || patch.lower == bodies_.size()) continue;
-      budgets.push_back(program_.add_row(-LinearProgram::kUnbounded, 0));
-      add_shifts(*slot, patch.slack_m, budgets.back());
+      if (slot && may_shift) add_shifts(*slot, patch.slack_m, budget);
     }
-    for (const ContactPoint& point : patch.points) add_rays(point, upper, lower, budgets);
+    for (const ContactPoint& point : patch.points) add_rays(point, upper, lower, budget);
   }
 
   void add(const HiddenSupport& support) {
@@ -100,7 +101,7 @@ class EquilibriumProgram {
 
   /// The edges of a pyramid around the friction cone.
   void add_rays(const ContactPoint& point, const std::optional<std::size_t>& upper,
-                const std::optional<std::size_t>& lower, const std::vector<int>& budgets) {
+                const std::optional<std::size_t>& lower, int budget) {
     const Eigen::Vector3d u = point.normal.unitOrthogonal(), v = point.normal.cross(u);
     for (const double along_u : {-1.0, 1.0}) {
       for (const double along_v : {-1.0, 1.0}) {
@@ -109,7 +110,7 @@ class EquilibriumProgram {
         LinearProgram::Entries entries;
         if (upper) add_force(*upper, point.point, force, 1, entries);
         if (lower) add_force(*lower, point.point, force, -1, entries);
-        for (const int budget : budgets) entries.emplace_back(budget, -1);
+        if (budget != kNoRow) entries.emplace_back(budget, -1);
         program_.add_unknown(0, entries);
       }
     }

@@ -51,7 +51,7 @@ TEST_CASE("random stacks stand, unless they are made to have a fault") {
         box.centre.z() = std::round(box.centre.z() * 1e6) / 1e6;
         boxes.push_back(box);
       }
-      // 2 mm inside at least, 8 mm outside, up to the grid of the plain forces.
+      // 2 mm inside at least, 15 mm outside, up to the grid of the plain forces.
       if (fault == StackFault::none) CHECK(plain_unbalance(boxes, 0) < 1e-2);
       if (fault != StackFault::none) CHECK(plain_unbalance(boxes, 0) > 1e-2);
       const RandomStack again = maker.make(fault, seed, {0.1, -0.2});
