@@ -64,7 +64,10 @@ TEST_CASE("random stacks stand, unless they are made to have a fault") {
 }
 
 TEST_CASE("what nothing can stand on makes no stack") {
-  const std::vector<MeshPointer> meshes{std::make_shared<TriangleMesh>(sphere_solid(0.03))};
+  // A tetrahedron has a corner on top, whichever of its faces it lies on.
+  const std::vector<MeshPointer> meshes{std::make_shared<TriangleMesh>(
+      std::vector<Eigen::Vector3f>{{0, 0, 0}, {0.05f, 0, 0}, {0, 0.05f, 0}, {0, 0, 0.05f}},
+      std::vector<Triangle>{{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}})};
   expect_error(ErrorCode::bad_input, "types", "flat faces at top and bottom",
                [&] { StackMaker maker(meshes); });
 }
