@@ -139,12 +139,13 @@ void add_contacts(const FacingTriangle& upper, const FacingTriangle& lower, cons
   const FacingPair pair(upper, lower);
   const SmallPolygon overlap = pair.overlap();
   // Faces that meet at an edge only, as the sides of a body and of one on top of it, do not touch;
-  // and bodies that overlap by more than the faces do are in touch in another direction.
+  // and bodies that overlap by more than the faces do, and than the poses explain, are in touch in
+  // another direction.
   const double width = width_of(overlap);
   if (width < 10 * kSameSpot_m) return;
   for (std::size_t i = 0; i < overlap.size; ++i) {
     const ContactPoint contact = pair.contact(overlap.corners[i], opposed >= limits.flat_cosine);
-    const double deepest = std::min(limits.deepest_m, width);
+    const double deepest = std::min(limits.deepest_m, std::max(width, limits.widest_m));
     if (contact.gap_m >= -deepest && contact.gap_m <= limits.widest_m) {
       points.push_back(contact);
     }
