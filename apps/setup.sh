@@ -15,7 +15,7 @@ packages=(
   g++ cmake ninja-build ccache mold
   libembree-dev libtbb-dev libeigen3-dev
   libopencv-dev libopencv-contrib-dev
-  libopenvdb-dev libboost-iostreams-dev libceres-dev
+  libopenvdb-dev libboost-iostreams-dev libceres-dev coinor-libclp-dev
   libassimp-dev libqhull-dev libnanoflann-dev libpng-dev libopenexr-dev libpugixml-dev libssl-dev
   libcli11-dev nlohmann-json3-dev libyaml-dev libvalijson-dev
   libspdlog-dev libfmt-dev doctest-dev
@@ -35,7 +35,7 @@ if ! command -v apt-get >/dev/null; then
 apps/setup.sh: there is no apt here, so please install these yourself, with their headers:
   a C++20 compiler (GCC 12 or later), CMake 3.25, Ninja (and, to build faster, ccache and mold),
   Embree 3.13 or 4, oneTBB 2021, Eigen 3.4, OpenCV 4.6 with contrib, OpenVDB 10 and Boost.Iostreams,
-  Ceres 2.1, assimp 5, Qhull 2020, nanoflann 1.4, libpng, OpenEXR 3, pugixml 1.13, OpenSSL 3, CLI11 2,
+  Ceres 2.1, Clp 1.17, assimp 5, Qhull 2020, nanoflann 1.4, libpng, OpenEXR 3, pugixml 1.13, OpenSSL 3, CLI11 2,
   nlohmann-json 3.11, libyaml 0.2, valijson, spdlog, fmt 9, doctest 2.4.
 Then build without this script: cmake --preset release && cmake --build --preset release
 END

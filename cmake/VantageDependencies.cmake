@@ -47,3 +47,11 @@ find_library(VANTAGE_YAML_LIBRARY yaml REQUIRED)
 add_library(vantage_yaml INTERFACE)
 target_include_directories(vantage_yaml SYSTEM INTERFACE "${VANTAGE_YAML_INCLUDE}")
 target_link_libraries(vantage_yaml INTERFACE "${VANTAGE_YAML_LIBRARY}")
+
+# COIN-OR's linear programmes (EPL; GLPK is under the GPL: nothing that is installed may link it).
+# It has no package file for CMake.
+find_path(VANTAGE_CLP_INCLUDE coin/Clp_C_Interface.h REQUIRED)
+find_library(VANTAGE_CLP_LIBRARY Clp REQUIRED)
+add_library(vantage_clp INTERFACE)
+target_include_directories(vantage_clp SYSTEM INTERFACE "${VANTAGE_CLP_INCLUDE}")
+target_link_libraries(vantage_clp INTERFACE "${VANTAGE_CLP_LIBRARY}")

@@ -37,5 +37,6 @@ void add_evaluate_gain(CLI::App& evaluate_verb, Action& action);
 void add_evaluate_expected_gain(CLI::App& evaluate_verb, Action& action);
 void add_evaluate_tracking(CLI::App& evaluate_verb, Action& action);
 void add_evaluate_reasoning(CLI::App& evaluate_verb, Action& action);
+void add_evaluate_stability(CLI::App& evaluate_verb, Action& action);
 
 }  // namespace vantage

@@ -13,6 +13,7 @@ void add_evaluate_command(CLI::App& app, Action& action) {
   add_evaluate_replay(*verb, action);
   add_evaluate_tracking(*verb, action);
   add_evaluate_reasoning(*verb, action);
+  add_evaluate_stability(*verb, action);
 }
 
 }  // namespace vantage

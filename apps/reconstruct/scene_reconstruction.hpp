@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "reconstruct/observed_scene.hpp"
+#include "reconstruct/support/object_support.hpp"
 #include "vantage/reconstruction/check_scene.hpp"
 #include "vantage/reconstruction/reconstruct.hpp"
 
@@ -33,6 +34,7 @@ struct SceneReconstruction {
   ObservedScene observed;
   Reconstruction result;
   double reconstruct_s = 0;
+  SceneSupport support = {};
 };
 
 /// One of the library's methods, by name.

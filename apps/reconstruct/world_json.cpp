@@ -8,6 +8,7 @@
 #include "cli/inputs_json.hpp"
 #include "cli/pose_json.hpp"
 #include "cli/run_time.hpp"
+#include "reconstruct/support/support_json.hpp"
 #include "version.hpp"
 
 namespace vantage {
@@ -184,6 +185,10 @@ std::string object_line(const Json& object) {
   }
   line += fmt::format("; {} features, {:.3f} px rms, probability {:.3f}", object["support"].size(),
                       object["rms_px"].get<double>(), object["probability"].get<double>());
+  const std::string verdict =
+      object.contains("stability") ? object["stability"]["verdict"].get<std::string>() : "stands";
+  if (verdict == "unseen") line += ", held by something unseen";
+  if (verdict == "floats" || verdict == "tips" || verdict == "sinks") line += ", " + verdict;
   for (const Json& other : object["alternatives"]) {
     line += fmt::format("\n    or {} of probability {:.3f}", other["type"].get<std::string>(),
                         other["probability"].get<double>());
@@ -208,6 +213,9 @@ Json world_to_json(const BopScene& scene, const Workcell& workcell,
   for (std::size_t i = 0; i < objects.size(); ++i) {
     found.push_back(
         object_json(scene, reconstruction, reconstruction.result.objects[i], objects[i]));
+    const SceneSupport& support = reconstruction.support;
+    if (support.objects.empty()) continue;
+    found.back()["stability"] = to_json(support.objects[i], objects, support.structures);
   }
   for (const Unexplained& left : reconstruction.result.unexplained) {
     Json seen = observation_json(scene, observed.views, left.id);

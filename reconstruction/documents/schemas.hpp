@@ -16,6 +16,7 @@ const nlohmann::json& shadow_filters_schema();
 const nlohmann::json& replay_schema();
 const nlohmann::json& tracking_schema();
 const nlohmann::json& reasoning_schema();
+const nlohmann::json& stability_schema();
 const nlohmann::json& sequence_schema();
 const nlohmann::json& views_schema();
 
