@@ -114,7 +114,7 @@ SceneReconstruction reconstruct_scene(const BopScene& scene, const Workcell& wor
   knowledge.depth = depth_cameras(scene, all.observed, settings.depth_is_pinhole);
   reject_contradicted(all.observed.views, knowledge, all.result);
   warn_of_motion(all.observed.views, *workcell.knowledge, settings.options, stop, all.result);
-  all.support = check_support(scene, workcell, all.observed.views, all.result.objects);
+  all.support = check_support(workcell, std::move(knowledge.depth), all.result.objects);
   all.reconstruct_s =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return all;

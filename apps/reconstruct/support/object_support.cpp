@@ -1,29 +1,13 @@
 #include "reconstruct/support/object_support.hpp"
 
 #include <cmath>
+#include <utility>
 
 #include "vantage/raycore/solids.hpp"
 #include "vantage/reconstruction/check_support.hpp"
 
 namespace vantage {
 namespace {
-
-/// What measures the space, where depth images are those of a pinhole.
-SpaceProbe probe_of(const BopScene& scene, const Workcell& workcell,
-                    std::span<const CameraView> views) {
-  std::vector<DepthCamera> cameras;
-  for (std::size_t v = 0; v < scene.images.size(); ++v) {
-    const BopImage& image = scene.images[v];
-    const bool is_pinhole =
-        views[v].lens.distortion().none() || workcell.depth_lens == DepthLens::pinhole;
-    if (!image.depth || !views[v].T_world_cam || !is_pinhole) continue;
-    cameras.push_back(
-        {views[v].name,
-         PinholeCamera(image.intrinsics, *views[v].T_world_cam, image.range, image.place),
-         image.depth});
-  }
-  return measured_space(std::move(cameras));
-}
 
 /// The height at which the floor carries objects: of the work area's lower face, or of a board on
 /// it. Elsewhere it is what the camera has to stay above, and maybe nothing else.
@@ -50,15 +34,14 @@ std::vector<KnownObject> carriers_of(const Workcell& workcell) {
 
 }  // namespace
 
-SceneSupport check_support(const BopScene& scene, const Workcell& workcell,
-                           std::span<const CameraView> views,
+SceneSupport check_support(const Workcell& workcell, std::vector<DepthCamera> depth,
                            std::span<ReconstructedObject> objects) {
   SupportOptions options;
   options.floor_z_m = carrying_floor(workcell);
   SceneSupport support{{}, carriers_of(workcell)};
   if (!options.floor_z_m && support.structures.empty()) return support;
   support.objects =
-      check_support(support.structures, probe_of(scene, workcell, views), options, objects);
+      check_support(support.structures, measured_space(std::move(depth)), options, objects);
   return support;
 }
 

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "vantage/reconstruction/bop_scene.hpp"
 #include "vantage/reconstruction/support.hpp"
 #include "workcell/workcell.hpp"
 
@@ -15,9 +14,8 @@ struct SceneSupport {
 /// Judges whether the objects that were found can be at rest in the workcell, pulls those that
 /// stand to what they stand on, and makes those that cannot stand less likely, with a warning. Does
 /// nothing where the workcell has neither a floor nor structures.
-/// @param views one for each of the scene's images: their poses.
-SceneSupport check_support(const BopScene& scene, const Workcell& workcell,
-                           std::span<const CameraView> views,
+/// @param depth what measures the space; may be empty.
+SceneSupport check_support(const Workcell& workcell, std::vector<DepthCamera> depth,
                            std::span<ReconstructedObject> objects);
 
 }  // namespace vantage
