@@ -137,7 +137,7 @@ TEST_CASE("what a structure hides is not missing") {
   CHECK(result.objects[0].probability > 0.9);
 }
 
-TEST_CASE("depth that sees through an object takes it away; depth that stops before it does not") {
+TEST_CASE("depth that sees through an object takes it away, depth that stops before it does not") {
   Random random(3);
   auto views = four_cameras();
   const TypePtr type = evident_cube();

@@ -149,7 +149,7 @@ TEST_CASE("solids of other shapes stand where they are at rest") {
   CHECK(verdicts_of(objects) == Verdicts{kStands, kStands, kStands});
 }
 
-TEST_CASE("an object that reaches into the floor sinks; one in a structure below it does not") {
+TEST_CASE("an object that reaches into the floor sinks, one in a structure below it does not") {
   const std::vector<ReconstructedObject> objects{box_at(kCube, {0, 0, 0.01})};
   CHECK(verdicts_of(objects) == Verdicts{SupportVerdict::sinks});
   const KnownObject table{"table", std::make_shared<TriangleMesh>(box_solid({0.5, 0.5, 0.02})),
