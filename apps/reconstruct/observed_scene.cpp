@@ -174,13 +174,13 @@ ObservedScene observe(const BopScene& scene, const Workcell& workcell,
 
 std::vector<DepthCamera> depth_cameras(const BopScene& scene, const ObservedScene& observed,
                                        bool depth_is_pinhole) {
-  constexpr double kNotable_px = 1;
+  constexpr double kVisible_px = 1;
   std::vector<DepthCamera> cameras;
   for (std::size_t v = 0; v < scene.images.size(); ++v) {
     const BopImage& image = scene.images[v];
     const CameraView& view = observed.views[v];
     if (!image.depth || !view.T_world_cam) continue;
-    if (!depth_is_pinhole && max_displacement_px(view.lens) > kNotable_px) continue;
+    if (!depth_is_pinhole && max_displacement_px(view.lens) > kVisible_px) continue;
     cameras.push_back({view.name,
                        PinholeCamera(image.intrinsics, *view.T_world_cam, image.range, image.place),
                        image.depth});

@@ -58,7 +58,8 @@ void thin_out(std::vector<FacingTriangle>& triangles, std::size_t most) {
 /// Corners of the touching areas, by the normals.
 std::vector<ContactPoint> corners_of(std::vector<ContactPoint> points) {
   std::vector<ContactPoint> result;
-  std::ranges::stable_partition(points, [](const ContactPoint& p) { return p.is_flat; });
+  std::stable_partition(points.begin(), points.end(),
+                        [](const ContactPoint& p) { return p.is_flat; });
   while (!points.empty()) {
     const ContactPoint first = points.front();
     std::vector<ContactPoint> group, rest;
