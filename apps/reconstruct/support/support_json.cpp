@@ -62,17 +62,17 @@ std::string verdict_name(SupportVerdict verdict) {
 
 nlohmann::ordered_json to_json(const ObjectSupport& support, std::span<const KnownObject> objects,
                                std::span<const KnownObject> structures) {
-  using Value = nlohmann::ordered_json;
-  Value by = Value::array();
+  using OrderedJson = nlohmann::ordered_json;
+  OrderedJson by = OrderedJson::array();
   for (const Supporter& supporter : support.supported_by) {
     by.push_back({{"kind", kind_name(supporter.kind)},
                   {"name", supporter_name(supporter, objects, structures)}});
   }
-  Value json{{"verdict", verdict_name(support.verdict)},
-            {"supported_by", by},
-            {"unseen_region", nullptr},
-            {"reason", support.reason.empty() ? Value() : Value(support.reason)},
-            {"pulled_to_contact", support.pulled}};
+  OrderedJson json{{"verdict", verdict_name(support.verdict)},
+                   {"supported_by", by},
+                   {"unseen_region", nullptr},
+                   {"reason", support.reason.empty() ? OrderedJson() : OrderedJson(support.reason)},
+                   {"pulled_to_contact", support.pulled}};
   if (support.unseen_region) {
     json["unseen_region"] = {{"min_m", point_json(support.unseen_region->min())},
                              {"max_m", point_json(support.unseen_region->max())}};
