@@ -30,11 +30,11 @@ MassProperties mass_properties(const TriangleMesh& mesh) {
   }
   const double edge = bounds.sizes().maxCoeff(), least = kFlat * edge * edge * edge;
   if (sums.volume_m3 <= least) {
-    throw bad_input(
-        "mesh",
-        fmt::format("its volume is {:.3g} m³; expected more than {:.3g} m³{}", sums.volume_m3, least,
-                    sums.volume_m3 < -least ? ": its faces point inwards; flip them"
-                                         : ": a body with an inside"));
+    throw bad_input("mesh",
+                    fmt::format("its volume is {:.3g} m³; expected more than {:.3g} m³{}",
+                                sums.volume_m3, least,
+                                sums.volume_m3 < -least ? ": its faces point inwards; flip them"
+                                                        : ": a body with an inside"));
   }
   return {sums.volume_m3, sums.centre};
 }

@@ -84,7 +84,7 @@ void expect_agreement(const PixelTally& tally, double same_outcome, double same_
   CHECK(tally.hits > tally.rays / 20);
   // Rays along a surface may pass it or not, and slivers thinner than a voxel are not in the mesh.
   CHECK(double(tally.same_outcome) > same_outcome * double(tally.rays));
-  CHECK(double(tally.near_the_mesh) > 0.985 * double(tally.hits));
+  CHECK(double(tally.near_the_mesh) > (test::kAllScenes ? 0.99 : 0.985) * double(tally.hits));
   CHECK(double(tally.same_depth) > same_depth * double(tally.hits));
   CHECK(double(tally.closely) > 0.8 * double(tally.hits));
 }
@@ -124,7 +124,7 @@ TEST_CASE("rays first meet the unseen where the exported mesh is, within its res
 
 TEST_CASE("the same of noisy images with what the filter leaves of the unseen") {
   // Slivers are what the filter takes away: a mesh without it has the same outcome for 0.977.
-  expect_agreement(compare_cells(true), 0.985, 0.91);
+  expect_agreement(compare_cells(true), 0.985, test::kAllScenes ? 0.93 : 0.91);
 }
 
 }  // namespace vantage
