@@ -9,6 +9,7 @@
 #include "objects/winding_number.hpp"
 #include "reference/plain_winding.hpp"
 #include "support/expect_error.hpp"
+#include "support/scene_count.hpp"
 #include "vantage/raycore/solids.hpp"
 #include "vantage/volume/advanced/classify.hpp"
 #include "volume/same_grid.hpp"
@@ -179,7 +180,7 @@ TEST_CASE("winding numbers of a tree are those of all triangles") {
       worst = std::max(worst, std::abs(tree.at(point) - plain));
     }
     CAPTURE(mesh.triangles().size());
-    CHECK(worst < 0.05);  // a point is inside or not by 0.5
+    CHECK(worst < (test::kAllScenes ? 0.01 : 0.05));  // Clang draws other points
   }
 }
 
