@@ -11,7 +11,11 @@ if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
 endif()
 # -O2 leaves GCC 12's vectoriser timid: the field-of-view kernel is several times slower with it.
 set(CMAKE_CXX_FLAGS_RELEASE "-O3 -DNDEBUG")
-set(CMAKE_CXX_FLAGS_DEBUG "-Og -g")
+if(VANTAGE_SANITIZE)
+  set(CMAKE_CXX_FLAGS_DEBUG "-O0 -g1")  # reports show lines and nothing else
+else()
+  set(CMAKE_CXX_FLAGS_DEBUG "-Og -g")
+endif()
 
 # What was compiled before, in whichever checkout, is taken from the cache. Precompiled headers hold
 # no __TIME__ of ours; ccache wants to be told so.
@@ -41,8 +45,7 @@ if(VANTAGE_SANITIZE)
   target_compile_options(vantage_options INTERFACE
     -fsanitize=${VANTAGE_SANITIZE} -fno-omit-frame-pointer
     -fno-sanitize=null,alignment,pointer-overflow
-    $<$<CXX_COMPILER_ID:GNU>:-fno-sanitize=object-size>  # Clang has none without optimisation
-    -g1)  # reports show lines and nothing else
+    $<$<CXX_COMPILER_ID:GNU>:-fno-sanitize=object-size>)  # Clang has none without optimisation
   target_link_options(vantage_options INTERFACE -fsanitize=${VANTAGE_SANITIZE})
 endif()
 
@@ -82,7 +85,7 @@ function(vantage_compile_together target)
     return()
   endif()
   if(NOT arg_BATCH)
-    set(arg_BATCH 20)
+    set(arg_BATCH 50)
   endif()
   set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${arg_BATCH})
   # Sources that are included by another file are no headers. And where much is inlined, GCC 12 sees

@@ -1,14 +1,10 @@
 #pragma once
 
 #include <filesystem>
-#include <string>
 
 #include "vantage/raycore/image.hpp"
 
 namespace vantage {
-
-/// A JPEG file's bytes, in high quality. The same picture gives the same bytes.
-std::string jpeg_bytes(const ColorImage& image);
 
 /// Writes a picture as its file's ending says: .png, or .jpg (.jpeg) in high quality. The same
 /// picture gives the same bytes.

@@ -1,25 +1,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <opencv2/imgcodecs.hpp>
 #include <vector>
 
 #include "images/depth_decoders.hpp"
+#include "images/load_codec.hpp"
 #include "images/raster_headers.hpp"
 #include "vantage/raycore/error.hpp"
 
 namespace vantage::reconstruction::detail {
 namespace {
-
-cv::Mat decode_tiff(std::span<const std::uint8_t> bytes) {
-  try {
-    // OpenCV takes no pointer to const, and does not write to it.
-    const cv::Mat file(1, int(bytes.size()), CV_8U, const_cast<std::uint8_t*>(bytes.data()));
-    return cv::imdecode(file, cv::IMREAD_UNCHANGED | cv::IMREAD_IGNORE_ORIENTATION);
-  } catch (const cv::Exception&) {
-    return {};
-  }
-}
 
 template <class Sample, class Result, class Convert>
 Image<Result, 1> image_of(const cv::Mat& pixels, const Convert& convert) {
@@ -52,7 +42,7 @@ RawDepth decode_depth_tiff(std::span<const std::uint8_t> bytes, const std::strin
     for (std::size_t i = 0; i < 2; ++i) relabelled[header->unsigned_at + i] *= 2;
     bytes = relabelled;
   }
-  const cv::Mat pixels = decode_tiff(bytes);
+  const cv::Mat pixels = image_codec().decode_unchanged(bytes.data(), bytes.size());
   const bool fits = pixels.channels() == 1 && pixels.cols == int(header->width) &&
                     pixels.rows == int(header->height);
   if (fits && is_counts && pixels.depth() == CV_16U) {

@@ -94,7 +94,8 @@ TEST_CASE("a check forbids candidates, servo iterations, polished poses and furt
   CHECK(further >= 3);
 }
 
-TEST_CASE("a check that says what a built-in limit says gives the very same plan") {
+TEST_CASE("a check that says what a built-in limit says gives the very same plan" *
+          doctest::skip(test::kSanitized)) {
   const WorldModel world = measured_wall();
   for (const Method& method : methods()) {
     CAPTURE(name_of(method));
@@ -105,7 +106,8 @@ TEST_CASE("a check that says what a built-in limit says gives the very same plan
   }
 }
 
-TEST_CASE("a plan with checks is the same at any number of threads") {
+TEST_CASE("a plan with checks is the same at any number of threads" *
+          doctest::skip(test::kSanitized)) {
   const tbb::global_control allow(tbb::global_control::max_allowed_parallelism, 8);
   const WorldModel world = measured_wall();
   for (const Method& method : methods()) {

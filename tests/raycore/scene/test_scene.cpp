@@ -5,13 +5,14 @@
 
 #include "reference/random_scene.hpp"
 #include "support/expect_error.hpp"
+#include "support/scene_count.hpp"
 
 using namespace vantage;
 using namespace vantage::test;
 
 namespace {
 
-constexpr std::uint32_t kScenes = 240;
+const std::uint32_t kScenes = scene_count(240);
 constexpr int kRaysPerScene = 50;
 
 Ray random_ray(Random& random) {

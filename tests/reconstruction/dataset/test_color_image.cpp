@@ -5,6 +5,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <string>
 
+#include "reconstruction/encoded_image.hpp"
 #include "support/expect_error.hpp"
 #include "support/test_data.hpp"
 #include "vantage/raycore/image_io.hpp"
@@ -108,9 +109,7 @@ TEST_CASE("TIFF, BMP and WebP are read as PNG is") {
     expected.samples[i] = 250, expected.samples[i + 1] = 120, expected.samples[i + 2] = 10;
   }
   const auto read = [&](const char* ending, const cv::Mat& image, std::vector<int> how = {}) {
-    std::vector<unsigned char> bytes;
-    REQUIRE(cv::imencode(ending, image, bytes, how));
-    const std::string text(bytes.begin(), bytes.end());
+    const std::string text = encoded_image(ending, image, how);
     // What is cut off is corrupt, wherever it ends, and never a crash.
     for (std::size_t size = 0; size + 1 < text.size(); size += 7) {
       try {
@@ -126,10 +125,8 @@ TEST_CASE("TIFF, BMP and WebP are read as PNG is") {
   CHECK(read(".png", deep) == expected);
   CHECK(read(".bmp", bgr) == expected);
   CHECK(read(".webp", bgr, {cv::IMWRITE_WEBP_QUALITY, 101}) == expected);  // lossless
-  std::vector<unsigned char> floats;
-  REQUIRE(cv::imencode(".tif", cv::Mat(3, 5, CV_32FC1, cv::Scalar(1)), floats));
-  expect_bytes_refused({reinterpret_cast<const char*>(floats.data()), floats.size()},
-                       {"32 bits", "floating point"});
+  const std::string floats = encoded_image(".tif", cv::Mat(3, 5, CV_32FC1, cv::Scalar(1)));
+  expect_bytes_refused(floats, {"32 bits", "floating point"});
 }
 
 TEST_CASE("a colour image whose data are damaged is refused") {

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
-#include <opencv2/imgcodecs.hpp>
 
+#include "reconstruction/encoded_image.hpp"
 #include "reconstruction/scene_folder.hpp"
 #include "support/expect_error.hpp"
 #include "vantage/reconstruction/bop_scene.hpp"
@@ -47,12 +47,6 @@ std::string tiff_of_32_bits(std::uint32_t value) {
   return file + raw(std::vector<std::uint32_t>(48, value));
 }
 
-std::string encoded(const char* ending, const cv::Mat& image) {
-  std::vector<unsigned char> bytes;
-  REQUIRE(cv::imencode(ending, image, bytes));
-  return {bytes.begin(), bytes.end()};
-}
-
 /// Depth of image 7, of 0.5 mm a count, from a file with this ending.
 std::shared_ptr<const DepthImage> depth_in(const std::string& ending, const std::string& bytes) {
   SceneFolder folder;
@@ -84,8 +78,8 @@ TEST_CASE("depth is read from TIFF of 16 and 32 bits, OpenEXR and NumPy's arrays
   const std::string floats = raw(std::vector<float>(48, 2000.0f));
   const std::string doubles = raw(std::vector<double>(48, 2000.0));
   for (const auto& file : std::vector<std::pair<std::string, std::string>>{
-           {".tif", encoded(".tif", cv::Mat(6, 8, CV_16U, cv::Scalar(2000)))},
-           {".TIFF", encoded(".tif", cv::Mat(6, 8, CV_32F, cv::Scalar(2000)))},
+           {".tif", encoded_image(".tif", cv::Mat(6, 8, CV_16U, cv::Scalar(2000)))},
+           {".TIFF", encoded_image(".tif", cv::Mat(6, 8, CV_32F, cv::Scalar(2000)))},
            {".tif", tiff_of_32_bits(2000)},
            {".npy", npy("<u2", "6, 8", counts)},
            {".npy", npy("<f4", "6, 8", floats)},
@@ -120,7 +114,7 @@ TEST_CASE("rows stay rows, and what is unknown stays unknown") {
   counts[5] = 0, counts[6] = 65535;
   cv::Mat image(6, 8, CV_16U, counts.data());
   for (const auto& depth : {depth_in(".npy", npy("<u2", "6, 8", raw(counts))),
-                            depth_in(".tif", encoded(".tif", image))}) {
+                            depth_in(".tif", encoded_image(".tif", image))}) {
     CHECK(depth->at(3, 2) == doctest::Approx(0.0005 * (1000 + 2 * 8 + 3)));
     CHECK(std::isnan(depth->at(5, 0)));
     CHECK(std::isnan(depth->at(6, 0)));
@@ -132,8 +126,10 @@ TEST_CASE("depth files of another kind are refused by what they are") {
                           std::initializer_list<std::string_view> parts) {
     expect_refused([&] { depth_in(ending, bytes); }, "000007" + ending, parts);
   };
-  refused(".tif", encoded(".tif", cv::Mat(6, 8, CV_8U, cv::Scalar(20))), {"8 bits per pixel"});
-  refused(".tif", encoded(".tif", cv::Mat(6, 8, CV_16UC3, cv::Scalar(20, 2, 1))), {"channels"});
+  refused(".tif", encoded_image(".tif", cv::Mat(6, 8, CV_8U, cv::Scalar(20))),
+          {"8 bits per pixel"});
+  refused(".tif", encoded_image(".tif", cv::Mat(6, 8, CV_16UC3, cv::Scalar(20, 2, 1))),
+          {"channels"});
   refused(".tif", "no image", {"not a TIFF image"});
   refused(".npy", npy("<i4", "6, 8", std::string(192, 'a')), {"\"<i4\"", "uint16"});
   refused(".npy", npy("<u2", "48", std::string(96, 'a')), {"(48)", "(height, width)"});

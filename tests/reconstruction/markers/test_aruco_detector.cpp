@@ -87,7 +87,8 @@ CornerErrors look(const PrintedBoard& board, const Camera& camera) {
 
 }  // namespace
 
-TEST_CASE("corners are right to hundredths of a pixel, and the detector knows how well") {
+TEST_CASE("corners are right to hundredths of a pixel, and the detector knows how well" *
+          doctest::skip(kSanitized)) {
   std::vector<const char*> dictionaries{"4X4_50", "6X6_250", "APRILTAG_36h11"};
   dictionaries.resize(scene_count(3));
   for (const char* dictionary : dictionaries) {
@@ -109,7 +110,8 @@ TEST_CASE("corners are right to hundredths of a pixel, and the detector knows ho
   }
 }
 
-TEST_CASE("another gamma than sRGB's and ink that has run do not move the corners") {
+TEST_CASE("another gamma than sRGB's and ink that has run do not move the corners" *
+          doctest::skip(kSanitized)) {
   Camera camera;
   camera.gamma = 1.2;
   CHECK(look(board_of("4X4_50", 0.04), camera).rms() < 0.07);
@@ -118,7 +120,8 @@ TEST_CASE("another gamma than sRGB's and ink that has run do not move the corner
   CHECK(look(inky, {}).rms() < 0.2);
 }
 
-TEST_CASE("through a fisheye lens, corners are right if the detector knows it") {
+TEST_CASE("through a fisheye lens, corners are right if the detector knows it" *
+          doctest::skip(kSanitized)) {
   Camera camera;
   camera.distortion = Distortion::fisheye(0.1, -0.05, 0.02, -0.004);
   const PrintedBoard board = board_of("4X4_50", 0.05);
@@ -153,7 +156,7 @@ TEST_CASE("white markers on black are found as black ones on white are") {
   CHECK(inverted.rms() < 0.1);
 }
 
-TEST_CASE("markers in faint light are found, too") {
+TEST_CASE("markers in faint light are found, too" * doctest::skip(kSanitized)) {
   const PrintedBoard board = board_of("4X4_50", 0.04);
   const Lens lens(kBoardIntrinsics, {});
   const Pose T_world_cam = Pose::looking_at({0.02, -0.1, 0.3}, {0, 0, 0});
@@ -178,7 +181,8 @@ TEST_CASE("through a strong lens, corners are right if the detector knows it") {
   CHECK(with.rms() < without / 2);
 }
 
-TEST_CASE("something dark beside a marker does not drag its corners along") {
+TEST_CASE("something dark beside a marker does not drag its corners along" *
+          doctest::skip(kSanitized)) {
   std::vector<double> gaps{0.003, 0.0, 0.001};
   gaps.resize(scene_count(3));
   for (const double gap : gaps) {

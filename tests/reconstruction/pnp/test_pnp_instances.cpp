@@ -56,22 +56,23 @@ Tally clutter(const ViewNoise& noise, int cameras, std::uint32_t scenes) {
   return tally;
 }
 
+/// In one scene, as under the sanitizers, one marker is several percent.
+void expect_more_than(double recall, double precision, const Tally& tally) {
+  if (!kAllScenes) return;
+  CHECK(tally.recall() > recall);
+  CHECK(tally.precision() > precision);
+}
+
 }  // namespace
 
 TEST_CASE("PnP: many instances of each type, their number not given") {
-  const Tally tally = clutter({}, 5, scene_count(20));
-  CHECK(tally.recall() > 0.99);
-  CHECK(tally.precision() > 0.99);
+  expect_more_than(0.99, 0.99, clutter({}, 5, scene_count(20)));
 }
 
 TEST_CASE("PnP: 20 % of the markers missing, 5 % read as another one") {
   const ViewNoise noise{.missing = 0.2, .wrong_id = 0.05};
-  const Tally few = clutter(noise, 4, scene_count(30));
-  CHECK(few.recall() > 0.98);
-  CHECK(few.precision() > 0.95);
-  const Tally many = clutter(noise, 9, scene_count(10));
-  CHECK(many.recall() > 0.99);
-  CHECK(many.precision() > 0.99);
+  expect_more_than(0.98, 0.95, clutter(noise, 4, scene_count(30)));
+  expect_more_than(0.99, 0.99, clutter(noise, 9, scene_count(10)));
 }
 
 // Side by side, same markers, same turn: whatever the cameras see of one, they see of the next one

@@ -27,7 +27,7 @@ ObjectType with_marker_size(ObjectType type, double factor) {
   return type;
 }
 
-bool says(const std::string& text, const char* words) {
+bool mentions(const std::string& text, const char* words) {
   return text.find(words) != std::string::npos;
 }
 
@@ -79,7 +79,7 @@ TEST_CASE(
     kept += std::uint32_t(result.objects.size());
     bool has_size = false;
     for (const Unexplained& left : result.unexplained) {
-      has_size = has_size || says(left.reason, "0.8");
+      has_size = has_size || mentions(left.reason, "0.8");
     }
     named += has_size;
   }
@@ -108,7 +108,7 @@ TEST_CASE("an object that moved between two pictures causes a warning that names
     warn_of_motion(first, knowledge, {}, {}, result);
     for (const ReconstructedObject& object : result.objects) {
       warned += !object.warning.empty();
-      right_image += says(object.warning, ("image " + first[3].name + " disagrees").c_str());
+      right_image += mentions(object.warning, ("image " + first[3].name + " disagrees").c_str());
     }
   }
   MESSAGE("warned in ", warned, " of ", scenes, ", the right image in ", right_image);
@@ -132,7 +132,7 @@ TEST_CASE("an object that would hide a marker of the board is not reported") {
   reject_contradicted(views, knowledge, result);
   CHECK(result.objects.empty());
   REQUIRE(result.unexplained.size() == 1);
-  CHECK(says(result.unexplained[0].reason, "would hide a marker of the board that image"));
+  CHECK(mentions(result.unexplained[0].reason, "would hide a marker of the board that image"));
 }
 
 TEST_CASE("a marker that is larger than its object is refused") {

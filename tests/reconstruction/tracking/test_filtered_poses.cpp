@@ -32,7 +32,7 @@ double jitter(MovingScene& scene, ObjectTracker& tracker, int before, int count)
 double jitter_with(TemporalFilter filter, std::uint32_t seed) {
   MovingScene scene = standing_scene(seed);
   ObjectTracker tracker = scene.tracker({.filter = filter});
-  return jitter(scene, tracker, 40, 60);
+  return jitter(scene, tracker, int(scene_count(40)), int(scene_count(60)));
 }
 
 }  // namespace
@@ -50,7 +50,8 @@ TEST_CASE("tracking: the poses of standing objects jitter four times less than s
   CHECK((none > 1.5 * features || !kAllScenes));
 }
 
-TEST_CASE("tracking: the covariance of filtered poses is true, cameras that are off included") {
+TEST_CASE("tracking: the covariance of filtered poses is true, cameras that are off included" *
+          doctest::skip(kSanitized)) {
   const std::uint32_t trials = scene_count(400);
   double sum = 0;
   std::uint32_t count = 0;
@@ -101,7 +102,7 @@ TEST_CASE("tracking: what all pictures have in common does not average away") {
   CHECK(last.objects[0].covariance(0, 0) < first.objects[0].covariance(0, 0));
 }
 
-TEST_CASE("tracking: a pose has settled three snapshots after a move") {
+TEST_CASE("tracking: a pose has settled three snapshots after a move" * doctest::skip(kSanitized)) {
   for (const auto filter : {TemporalFilter::kalman, TemporalFilter::features}) {
     MovingScene scene = standing_scene(4);
     ObjectTracker tracker = scene.tracker({.filter = filter});

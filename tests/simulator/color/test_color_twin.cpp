@@ -78,7 +78,8 @@ TEST_CASE("with one sample per pixel the picture is the twin's, to rounding") {
   CHECK(close_calls < compared / 20);
 }
 
-TEST_CASE("with many samples the picture is what other samples of the twin come to") {
+TEST_CASE("with many samples the picture is what other samples of the twin come to" *
+          doctest::skip(kSanitized)) {
   Random random(77);
   const std::vector<SimulatedBody> bodies = random_bodies(random);
   const Lighting lighting = random_lighting(random);

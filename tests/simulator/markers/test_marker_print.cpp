@@ -12,6 +12,7 @@
 #include "simulator/scene/srgb.hpp"
 #include "simulator/texture_lookup.hpp"
 #include "support/detect_markers.hpp"
+#include "support/scene_count.hpp"
 
 using namespace vantage;
 using namespace vantage::test;
@@ -98,7 +99,7 @@ TEST_CASE("a marker's cells are where its pose says, on every face and however i
   }
 }
 
-TEST_CASE("OpenCV finds printed markers where they are") {
+TEST_CASE("OpenCV finds printed markers where they are" * doctest::skip(kSanitized)) {
   const Vector3d size(0.09, 0.09, 0.09);
   for (int face = 0; face < 6; ++face) {
     CAPTURE(face);

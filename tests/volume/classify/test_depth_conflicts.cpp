@@ -6,6 +6,7 @@
 #include "reference/plain_classify.hpp"
 #include "reference/random_boxes.hpp"
 #include "reference/thesis_volume.hpp"
+#include "support/scene_count.hpp"
 #include "vantage/raycore/advanced/scene_builder.hpp"
 #include "vantage/volume/advanced/classify.hpp"
 #include "volume/small_grid.hpp"
@@ -36,7 +37,7 @@ std::shared_ptr<const DepthImage> measured(const std::vector<test::TurnedBox>& b
 
 TEST_CASE("a wrong pose shows: as many voxels in conflict as depth sees through, by name") {
   std::uint64_t conflicts = 0;
-  for (std::uint32_t seed = 0; seed < 8; ++seed) {
+  for (std::uint32_t seed = 0; seed < test::scene_count(8); ++seed) {
     CAPTURE(seed);
     test::Random random(seed);
     const test::TurnedBox right = aligned_box({-0.06, 0, 0.06});

@@ -6,6 +6,7 @@
 
 #include "reference/noisy_depth.hpp"
 #include "reference/random_workcell.hpp"
+#include "support/scene_count.hpp"
 #include "vantage/volume/advanced/classify.hpp"
 #include "volume/same_grid.hpp"
 #include "volume/volume_modes.hpp"
@@ -78,7 +79,7 @@ WorldModel moved(WorldModel world, const Eigen::Vector3d& shift) {
 TEST_CASE("adding a camera never adds shadow, and what is free stays free") {
   for (const VolumeOptions& options : test::all_volume_modes()) {
     std::size_t freed = 0;
-    for (std::uint32_t seed = 0; seed < 6; ++seed) {
+    for (std::uint32_t seed = 0; seed < test::scene_count(6); ++seed) {
       CAPTURE(seed);
       WorldModel world = random_world(seed);
       const std::vector<DepthCamera> cameras = std::exchange(world.cameras, {});
@@ -95,7 +96,7 @@ TEST_CASE("adding a camera never adds shadow, and what is free stays free") {
         before = after;
       }
     }
-    CHECK(freed > 10000);
+    CHECK(freed >= test::enough(10001));
   }
 }
 
@@ -105,7 +106,7 @@ TEST_CASE("removing a known object never turns free into shadow") {
   for (const OccluderMode mode : {OccluderMode::mesh, OccluderMode::voxels}) {
     const VolumeOptions options = test::volume_mode(mode, false);
     std::size_t freed = 0;
-    for (std::uint32_t seed = 0; seed < 12; ++seed) {
+    for (std::uint32_t seed = 0; seed < test::scene_count(12); ++seed) {
       CAPTURE(seed);
       WorldModel world = random_world(seed);
       auto before = classify(world, exact_grid(), options);
@@ -117,13 +118,13 @@ TEST_CASE("removing a known object never turns free into shadow") {
         before = after;
       }
     }
-    CHECK(freed > 1000);
+    CHECK(freed >= test::enough(1001));
   }
 }
 
 TEST_CASE("three states and nothing else fill the work area in every mode") {
   for (const VolumeOptions& options : test::all_volume_modes()) {
-    for (std::uint32_t seed = 0; seed < 6; ++seed) {
+    for (std::uint32_t seed = 0; seed < test::scene_count(6); ++seed) {
       CAPTURE(seed);
       const auto grid = classify(random_world(seed), exact_grid(), options);
       std::array<std::uint64_t, 4> counts{};
@@ -149,7 +150,7 @@ TEST_CASE("three states and nothing else fill the work area in every mode") {
 
 TEST_CASE("moving world, cameras and work area by whole voxels changes nothing, even far out") {
   for (const VolumeOptions& options : test::all_volume_modes()) {
-    for (std::uint32_t seed = 0; seed < 6; ++seed) {
+    for (std::uint32_t seed = 0; seed < test::scene_count(6); ++seed) {
       CAPTURE(seed);
       const WorldModel world = random_world(seed);
       const Eigen::Vector3d nowhere = Eigen::Vector3d::Zero();

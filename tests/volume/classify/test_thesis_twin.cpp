@@ -101,7 +101,7 @@ TEST_CASE("anti-aliasing is on by default where voxels hide, and off where meshe
 
 TEST_CASE("anti-aliasing does in both modes what the thesis prints, and says how much it removes") {
   for (const OccluderMode mode : {OccluderMode::mesh, OccluderMode::voxels}) {
-    for (std::uint32_t seed = 0; seed < 8; ++seed) {
+    for (std::uint32_t seed = 0; seed < test::scene_count(8); ++seed) {
       CAPTURE(seed);
       const test::BoxWorld world = test::random_boxes(seed);
       const WorldModel model = world.model();

@@ -165,7 +165,8 @@ TEST_CASE("remarks about the file reach the report, once for each mesh") {
   CHECK(grid->report().warnings == std::vector<std::string>{"object one: a.stl: odd"});
 }
 
-TEST_CASE("winding numbers of a tree are those of all triangles") {
+TEST_CASE("winding numbers of a tree are those of all triangles" *
+          doctest::skip(test::kSanitized)) {
   std::mt19937 random(11);
   const auto number = [&] { return double(random() % 20001) / 10000 - 1; };
   for (const TriangleMesh& mesh :

@@ -15,7 +15,7 @@ namespace {
 using test::Random;
 using test::scene_count;
 
-const Box kArea({-0.3, -0.3, 0}, {0.3, 0.3, 0.3});
+const Box kWorkArea({-0.3, -0.3, 0}, {0.3, 0.3, 0.3});
 constexpr double kVoxel_m = 0.01;
 constexpr Intrinsics kImage{160, 120, 150, 150, 79.5, 59.5};
 
@@ -44,7 +44,7 @@ struct Cell {
     }
   }
 
-  std::vector<std::string> findings() const { return implausibilities(world, kArea, kVoxel_m); }
+  std::vector<std::string> findings() const { return implausibilities(world, kWorkArea, kVoxel_m); }
 
   /// The first finding; all of them have to be about the same.
   std::string finding() const {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 #include "vantage/raycore/export.hpp"
 #include "vantage/raycore/image.hpp"
@@ -14,5 +15,8 @@ namespace vantage {
 /// @throws Error bad_input if the file is missing, none of these, truncated, corrupt, of more than
 /// 16 bits per channel, or above 16384 pixels along a side.
 VANTAGE_API ColorImage read_color(const std::filesystem::path& path);
+
+/// A JPEG file's bytes, in high quality. The same image gives the same bytes.
+VANTAGE_API std::string jpeg_bytes(const ColorImage& image);
 
 }  // namespace vantage
