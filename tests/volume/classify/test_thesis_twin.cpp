@@ -73,14 +73,16 @@ TEST_CASE("voxels mode with anti-aliasing equals the thesis' algorithm voxel for
                                [](auto seed) { return test::random_boxes(seed); }));
 }
 
-TEST_CASE("voxels mode equals the thesis' algorithm where voxels are fine") {
+TEST_CASE("voxels mode equals the thesis' algorithm where voxels are fine" *
+          doctest::skip(test::kSanitized)) {
   expect_enough(compare_scenes(test::scene_count(2), false,
                                [](auto seed) { return test::random_boxes(seed, 0.005); }));
   expect_enough(compare_scenes(test::scene_count(4), false,
                                [](auto seed) { return test::random_rods(seed, 0.005); }));
 }
 
-TEST_CASE("voxels mode equals the thesis' algorithm along axes, edges and corners of voxels") {
+TEST_CASE("voxels mode equals the thesis' algorithm along axes, edges and corners of voxels" *
+          doctest::skip(test::kSanitized)) {
   expect_enough(compare_scenes(test::scene_count(60), false,
                                [](auto seed) { return test::random_lattice_boxes(seed); }));
   expect_enough(compare_scenes(test::scene_count(3), false,

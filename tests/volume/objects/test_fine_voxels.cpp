@@ -29,7 +29,8 @@ WorldModel bumpy_workcell(std::uint32_t seed) {
 }  // namespace
 
 // Most blocks of 8³ voxels are decided at once here; the twin looks at a sample, voxel by voxel.
-TEST_CASE("a sample of fine voxels, known objects and depth together, equals the plain algorithm") {
+TEST_CASE("a sample of fine voxels, known objects and depth together, equals the plain algorithm" *
+          doctest::skip(test::kSanitized)) {
   std::size_t compared = 0, close_calls = 0;
   std::array<std::size_t, 4> seen{};
   for (std::uint32_t seed = 300; seed < 300 + test::scene_count(10); ++seed) {

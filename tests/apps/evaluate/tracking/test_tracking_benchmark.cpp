@@ -9,6 +9,7 @@
 #include "documents/schema_check.hpp"
 #include "documents/schemas.hpp"
 #include "evaluate/tracking/tracking_report.hpp"
+#include "support/scene_count.hpp"
 #include "support/test_data.hpp"
 #include "workcell/random_objects.hpp"
 #include "workcell/sequence/sequence_scene.hpp"
@@ -84,7 +85,8 @@ TEST_CASE("a tracker that says nothing, and one that forgets, have the scores th
   CHECK(forgetful.clear.switches > 100);
 }
 
-TEST_CASE("the benchmark's figures are the same every time, and as their schema says") {
+TEST_CASE("the benchmark's figures are the same every time, and as their schema says" *
+          doctest::skip(kSanitized)) {
   const std::vector<EvaluatedTracker> trackers{kForgetful};
   const TrackingBenchmarkOptions options = short_sequences();
   const auto json = [&] {
