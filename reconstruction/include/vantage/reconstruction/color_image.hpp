@@ -16,7 +16,8 @@ namespace vantage {
 /// 16 bits per channel, or above 16384 pixels along a side.
 VANTAGE_API ColorImage read_color(const std::filesystem::path& path);
 
-/// A JPEG file's bytes, in high quality. The same image gives the same bytes.
+/// A JPEG file's bytes, in high quality, of an image with pixels. The same image gives the same
+/// bytes. Safe in many threads.
 VANTAGE_API std::string jpeg_bytes(const ColorImage& image);
 
 }  // namespace vantage
