@@ -13,7 +13,7 @@ inline constexpr bool kAllScenes = false;
 inline constexpr bool kAllScenes = true;
 #endif
 
-/// For `doctest::skip`: what takes long there, for more scenes or finer ones of a kind that others have.
+/// For `doctest::skip`: what takes long under the sanitizers, and has a shorter case of its kind.
 inline constexpr bool kSanitized = !kAllScenes;
 
 /// How many scenes to look at: all, or a twentieth of them under the sanitizers, which
